@@ -89,6 +89,18 @@ PLACE = "its meshes[0].primitives[0]"
         (set_entry("nodes", 0, "mesh", 1), "its nodes[0].mesh is 1; expected 0 to 0"),
         (set_entry("nodes", 0, "matrix", [1.0]), "its nodes[0].matrix is [1.0]; expected 16"),
         (set_entry("nodes", 0, "children", [3]), "its nodes[0].children[0] is 3"),
+        (
+            set_entry("nodes", 0, "rotation", [0.0, 0.0, 0, 0]),
+            "its nodes[0].rotation is [0.0, 0.0, 0, 0]; expected a unit quaternion",
+        ),
+        (
+            set_entry("nodes", [{"children": [1, 2]}, {"children": [2]}, {"mesh": 0}]),
+            "its nodes[1].children has 2, already a child of nodes[0]; expected one parent",
+        ),
+        (
+            set_entry("nodes", [{"children": [1, 1]}, {"mesh": 0}]),
+            "its nodes[0].children has 1, already a child of nodes[0]; expected one parent",
+        ),
         (set_entry("scene", -1), "its scene is -1; expected 0 to 0"),
         (set_entry("bufferViews", 0, "byteLength", 900), "its bufferViews[0] is at bytes 0 to 900"),
         (set_entry("accessors", 0, "count", 400), "its accessors[0] is 4800 bytes of bufferV"),

@@ -21,6 +21,7 @@ from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
 from . import (
     collada_limits,
+    gltf_defects,
     gltf_limits,
     gltf_materials,
     gltf_rewriting,
@@ -222,6 +223,8 @@ def _parts(
                 posed_parts, remarks = ply_file.read_parts(to_utf8(data, suffix), references), ()
             else:
                 posed_parts, remarks = _read_by_trimesh(data, suffix, references), ()
+            if is_gltf:
+                remarks = tuple(gltf_defects.read_defects(data, suffix, references.get))
         finally:
             references.check()
         meshes = [item for item in posed_parts if isinstance(item[1], trimesh.Trimesh)]
@@ -318,7 +321,8 @@ def _convert_part(part: Part, materials: Materials, path: Path) -> Mesh | None:
     appearance = materials.appearance(part.visual)
     uv_values = getattr(part.visual, "uv", None)
     if uv_values is not None and np.shape(uv_values) == (len(vertices), 2):
-        uvs = np.nan_to_num(np.asarray(uv_values, dtype=np.float64))
+        uv_values = np.asarray(uv_values, dtype=np.float64)
+        uvs = np.where(np.isfinite(uv_values), uv_values, 0.0)
     shape = Shape(vertices[faces], uvs[faces])
     if shape.area <= 0.0:
         return None

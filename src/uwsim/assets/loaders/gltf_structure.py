@@ -179,10 +179,25 @@ class _Checker:
                 is_valid = isinstance(numbers, list) and len(numbers) == n
                 if not (is_valid and all(_is_finite(number) for number in numbers)):
                     self._report(f"{place}.{entry}", numbers, f"{n} numbers")
+                elif entry == "rotation" and entry in node and not any(numbers):
+                    self._report(f"{place}.{entry}", numbers, "a unit quaternion")
+        self._check_parents()
         for place, scene in self._entries("scenes"):
             self._check_indices(f"{place}.nodes", scene.get("nodes", []), "nodes")
         if "scene" in self._tree:
             self._check_index("scene", self._tree["scene"], "scenes")
+
+    def _check_parents(self) -> None:
+        """Check that no node has two parents: the nodes of a file are trees (glTF 2.0, 3.5.2)."""
+        parents: dict[int, str] = {}
+        for place, node in self._entries("nodes"):
+            children = node.get("children", [])
+            for index in children if isinstance(children, list) else []:
+                if is_integer(index) and index in parents:
+                    text = f"{index}, already a child of {parents[index]}"
+                    self._errors.append(f"its {place}.children has {text}; expected one parent")
+                elif is_integer(index):
+                    parents[index] = place
 
     def _check_counts(self, place: str, primitive: Tree) -> None:
         """Check that vertices have 3 numbers and triangles 3 vertices."""
