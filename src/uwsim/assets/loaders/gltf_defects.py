@@ -32,7 +32,7 @@ CONSEQUENCES = {
     "TEXCOORD": "0 is used for them",
     "COLOR": "the colour may be wrong",
 }
-"""What follows from numbers that are not finite, by the beginning of the attribute."""
+"""The consequences of numbers that are not finite, by the beginning of the attribute."""
 MAX_REMARKS = 5
 """The greatest number of remarks on a file."""
 
@@ -81,7 +81,7 @@ class _File:
 
     def find_numbers(self) -> Iterator[str]:
         """Report attributes of vertices, besides positions, whose numbers are not finite."""
-        found: dict[int, bool] = {}
+        are_finite: dict[int, bool] = {}
         for number, mesh in enumerate(self._tree.get("meshes", [])):
             for part, primitive in enumerate(mesh["primitives"]):
                 place = f"meshes[{number}].primitives[{part}].attributes"
@@ -89,9 +89,9 @@ class _File:
                     consequence = CONSEQUENCES.get(name.partition("_")[0])
                     if consequence is None:
                         continue
-                    if index not in found:
-                        found[index] = self._is_finite(self._tree["accessors"][index])
-                    if not found[index]:
+                    if index not in are_finite:
+                        are_finite[index] = self._is_finite(self._tree["accessors"][index])
+                    if not are_finite[index]:
                         text = "has numbers that are infinite or not numbers"
                         yield f"its {place}.{name[:40]} {text}: {consequence}"
 
