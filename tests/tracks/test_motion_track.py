@@ -78,7 +78,7 @@ def headed(data: bytes, name: str, value: float) -> bytes:
 def test_a_damaged_track_is_an_error_that_says_so(damage: object, tmp_path: Path) -> None:
     path = tmp_path / "00000.motion"
     path.write_bytes(damage(written()[0]))  # type: ignore[operator]
-    with pytest.raises(ResultError, match=r"00000\.motion: is no motion track of version 1 or 2: "):
+    with pytest.raises(ResultError, match=r"00000\.motion: is no motion track of version 1 to 3: "):
         load_track(path)
     with pytest.raises(ResultError, match="cannot be read"):
         load_track(tmp_path / "none.motion")

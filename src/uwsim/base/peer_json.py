@@ -7,6 +7,8 @@ import re
 from itertools import accumulate
 from typing import Any
 
+from .files.json_text import read_json
+
 MAX_DEPTH = 64
 """The greatest depth of nested lists and objects."""
 ESCAPED_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
@@ -21,12 +23,12 @@ def read_peer_json(text: str) -> Any:
     """Read JSON that a peer has sent.
 
     Raises:
-        ValueError: the text is not JSON, is nested more deeply than `MAX_DEPTH`, or has half of a
-            surrogate pair, which is no character.
+        ValueError: the text is not JSON, is nested more deeply than `MAX_DEPTH`, has an integer
+            that is too long, or half of a surrogate pair, which is no character.
     """
     if text.count("[") + text.count("{") > MAX_DEPTH and _depth(text) > MAX_DEPTH:
         raise ValueError(f"it is nested more than {MAX_DEPTH} deep")
-    value = json.loads(text)
+    value = read_json(text)
     if ESCAPED_SURROGATE.search(text):
         try:
             json.dumps(value, ensure_ascii=False).encode()

@@ -30,6 +30,7 @@ from pathlib import Path
 from typing import Any, TypeGuard, TypeVar
 
 from ..base.files.input_files import read_bytes
+from ..base.files.json_text import read_json
 from ..errors import AssetError, Diagnostic, FileError, SeveralErrors, UwsimError, choices
 from .fournier_forand import FournierForand
 from .henyey_greenstein import HenyeyGreenstein
@@ -180,14 +181,11 @@ class _Reader:
 
     def _parse(self) -> dict[str, Any]:
         try:
-            document = json.loads(self._text)
+            document = read_json(self._text)
         except json.JSONDecodeError as error:
             self._diagnostics.append(
                 Diagnostic(file=self._file, line=error.lineno, message=f"not JSON: {error.msg}")
             )
-            document = {}
-        except RecursionError:
-            self._report("", "not JSON: nested too deeply")
             document = {}
         if not isinstance(document, dict):
             self._report("", 'the file is not a JSON object; expected {"uwsim_water": 1, ...}')
@@ -304,4 +302,9 @@ class _Reader:
 
 
 def _is_number(value: object) -> TypeGuard[float]:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # an integer above the greatest float
+        return False

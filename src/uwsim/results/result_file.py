@@ -16,6 +16,7 @@ from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TypeVar, cast
 
+from ..base.files.json_text import read_json
 from ..errors import ResultError, did_you_mean
 from .atomic_file import write_text
 from .inputs import Inputs
@@ -98,14 +99,14 @@ def dumps(result: Result) -> str:
 def loads(text: str) -> Result:
     """Read the text of a ``result.json``; raise ResultError if it is invalid."""
     try:
-        document = json.loads(text, parse_constant=_refuse_constant)
+        document = read_json(text, parse_constant=_refuse_constant)
     except json.JSONDecodeError as error:
         is_cut_off = not text.strip() or error.pos >= len(text.rstrip()) - 1
         hint = " It ends in the middle: was it cut off?" if is_cut_off else ""
         raise ResultError(
             f"not JSON at line {error.lineno}, column {error.colno}: {error.msg}.{hint}"
         ) from None
-    except (ValueError, RecursionError) as error:
+    except ValueError as error:
         raise ResultError(f"not a result: {error}.") from None
     if not isinstance(document, dict):
         raise ResultError(f"not a result: expected an object, found {repr(document)[:60]}.")

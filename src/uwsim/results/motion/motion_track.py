@@ -35,6 +35,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...base.files.json_text import read_json
 from ...errors import ResultError
 from .dug_sand import COLUMNS, GRAIN, NO_VALUE, DugSand
 from .marker_log import MarkerChange, as_json, from_json
@@ -192,7 +193,7 @@ def read_track(data: bytes) -> MotionTrack:
     """Read the content of the file of a track; raise ResultError if it is not a track."""
     try:
         line, _, rest = _decompress(data).partition(b"\n")
-        head = json.loads(line)
+        head = read_json(line)
         if head[FORMAT] not in VERSIONS:
             raise ValueError(f"found version {head[FORMAT]!r}")
         return _track(head, rest)
@@ -202,7 +203,6 @@ def read_track(data: bytes) -> MotionTrack:
         TypeError,
         AttributeError,
         OverflowError,
-        RecursionError,
     ) as error:
         raise ResultError(f"is no motion track of version 1 to 3: {error}") from None
 

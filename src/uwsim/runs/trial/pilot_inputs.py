@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...algorithms.pilot import AXES, TOPIC
+from ...base.files.json_text import read_json
 from ...errors import ResultError, RunFailed
 from ...messages import Float64MultiArray, MultiArrayLayout
 from ...simulation import Simulation
@@ -97,14 +98,14 @@ class PilotInputs:
 def read_inputs(data: bytes) -> StoredInputs:
     """Read the content of a file of inputs; raise ResultError if it is invalid."""
     try:
-        head, *lines = [json.loads(line) for line in data.splitlines()]
+        head, *lines = [read_json(line) for line in data.splitlines()]
         axes = tuple(map(str, head["axes"]))
         if head["uwsim_inputs"] != VERSION or axes != AXES[: len(axes)]:
             raise ValueError("made by another version")
         values = {int(entry["step"]): tuple(map(float, entry["values"])) for entry in lines}
         if any(len(v) != len(axes) or not np.isfinite(v).all() for v in values.values()):
             raise ValueError("a line does not have a finite number for each axis")
-    except (ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
+    except (ValueError, KeyError, TypeError, OverflowError) as error:
         raise ResultError(f"is no file of a pilot's inputs: {error}") from None
     return StoredInputs(axes=axes, values_by_step=values)
 
