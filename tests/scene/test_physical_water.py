@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -247,3 +248,54 @@ def test_a_phase_table_has_5_to_200_numbers(n: int, tmp_path: Path) -> None:
         return
     expected = "4 rows; expected 5" if n == 4 else "<u:angles> has 201 numbers; expected 200"
     assert expected in error_of(tmp_path, water)
+
+
+def test_a_spectrum_of_the_element_has_up_to_1000_wavelengths(tmp_path: Path) -> None:
+    def write_spectrum(count: int) -> str:
+        wavelengths = " ".join(f"{350.0 + 0.5 * i:g}" for i in range(count))
+        return (
+            f"<u:spectrum> <u:wavelengths>{wavelengths}</u:wavelengths>"
+            f"<u:absorption>{'0.2 ' * count}</u:absorption>"
+            f"<u:scattering>{'0.3 ' * count}</u:scattering> </u:spectrum>"
+        )
+
+    with compile_water(tmp_path, write_spectrum(1000)) as simulation:
+        optics = simulation.world.scenery.state.water.physical_water
+        assert optics is not None
+        assert optics.medium.absorption == pytest.approx((0.2, 0.2, 0.2))
+    text = error_of(tmp_path, write_spectrum(1001))
+    assert "<u:wavelengths> has 1001 numbers; expected 1000 at most" in text
+
+
+def test_the_sun_may_be_in_the_zenith_in_four_decimals(tmp_path: Path) -> None:
+    sun = "<u:type>clear</u:type> <u:sun> <u:elevation>{}</u:elevation> </u:sun>"
+    for elevation in ("1.5708", "M_PI_2"):
+        with compile_water(tmp_path, sun.format(elevation)) as simulation:
+            optics = simulation.world.scenery.state.water.physical_water
+            assert optics is not None
+            assert optics.daylight.elevation == 0.5 * math.pi
+    text = error_of(tmp_path, sun.format("1.5709"))
+    assert "expected a number >= 0 and <= 1.5708 [rad]" in text
+
+
+@pytest.mark.parametrize(
+    ("values", "last", "text"),
+    [
+        ("0.08 0.08 0.08 0.08 0.08", "3.1416", ""),
+        ("0.08 0.08 0.08 0.08 0.08", "3.1417", "expected numbers >= 0 and <= 3.1416"),
+        ("0.08 0.08 0 0.08 0.08", "3.1416", ":7: .*contains '0'; expected numbers >= 1e-12"),
+        ("1e9 1e9 1e9 1e9 1e9", "3.1416", ":5: The integral of a phase function"),
+    ],
+)
+def test_the_limits_of_a_phase_table_are_those_that_messages_state(
+    values: str, last: str, text: str, tmp_path: Path
+) -> None:
+    water = (
+        "<u:type>clear</u:type>\n<u:phaseFunction> <u:phaseTable>\n"
+        f"<u:angles>0.1 1 2 3 {last}</u:angles>\n<u:values>{values}</u:values>"
+        "</u:phaseTable> </u:phaseFunction>"
+    )
+    if not text:
+        compile_water(tmp_path, water).close()
+    else:
+        assert re.search(text, error_of(tmp_path, water))

@@ -42,6 +42,8 @@ OPEN_WATER = "open-water"
 """The source of a picture of the lamp's veil in open water."""
 MAX_FRAMES = 256
 """The greatest number of files of one exposure."""
+MAX_HALF_ANGLE = 1.5708
+"""The greatest half-angle of a lamp [rad]: pi/2, rounded up to what files have."""
 CORNER_NUMBERS = 8
 
 
@@ -99,7 +101,9 @@ class BoardSpec(Spec):
     """The distance from the camera to the board's plane, along the optical axis [m]."""
     lamp_position: tuple[float, float, float] = (0.15, 0.0, 0.0)
     """The position of the lamp in the camera's frame [m]."""
-    lamp_half_angle: float = element(default=math.radians(30.0), minimum=0.05, maximum=math.pi / 2)
+    lamp_half_angle: float = element(
+        default=math.radians(30.0), minimum=0.05, maximum=MAX_HALF_ANGLE
+    )
     """The angle between the axis of the lamp and the edge of its cone [rad]."""
     squares: tuple[float, ...] = element("square", default=(), minimum=0.001, maximum=2)
     """The side of a square of each checker [m]."""

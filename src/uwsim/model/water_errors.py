@@ -39,7 +39,8 @@ def find_water_errors(
             lambda: water.read_source(lambda name: find_file(name, scene.path, data_path)),
         )
     if "phaseFunction" not in invalid_names:
-        yield from _report(scene, water, water.read_phase_function)
+        owner = water.phase_function[0] if len(water.phase_function) == 1 else water
+        yield from _report(scene, owner, water.read_phase_function)
     if water.particles is not None and "particles" not in invalid_names:
         for spec, text in water.particles.find_errors():
             yield diagnostic_at(spec, text, file=scene.path)
@@ -67,7 +68,7 @@ def _find_invalid_names(
     return {name.removeprefix(PREFIX) for name in names}
 
 
-def _report(scene: SceneSpec, water: Spec, read: Callable[[], object]) -> Iterator[Diagnostic]:
+def _report(scene: SceneSpec, owner: Spec, read: Callable[[], object]) -> Iterator[Diagnostic]:
     """Yield the errors of a function that reads a part of the water."""
     try:
         read()
@@ -82,4 +83,4 @@ def _report(scene: SceneSpec, water: Spec, read: Callable[[], object]) -> Iterat
             yield from one_error.diagnostics
             continue
         name = one_error.name if isinstance(one_error, UwsimError) else ""
-        yield diagnostic_at(water, str(one_error), PREFIX + name, file=scene.path)
+        yield diagnostic_at(owner, str(one_error), PREFIX + name, file=scene.path)

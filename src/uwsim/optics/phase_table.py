@@ -20,6 +20,8 @@ MAX_FIRST_ANGLE = math.radians(10.0)
 """The greatest first angle of a table [rad]; what is below is extrapolated."""
 MIN_LAST_ANGLE = math.radians(150.0)
 """The smallest last angle of a table [rad]; what is above has the last value."""
+ANGLE_TOLERANCE = 1e-5
+"""The distance by which a last angle may exceed pi [rad]: 3.1416 does."""
 MAX_INTEGRAL_ERROR = 0.1
 """The greatest distance from 1 of the integral of a table over all directions."""
 MIN_VALUE = 1e-12
@@ -120,10 +122,10 @@ class PhaseTable(PhaseFunction):
                 f"A phase function begins at {self.angles[0]:g} rad; expected 0 to "
                 f"{MAX_FIRST_ANGLE:.4g} rad."
             )
-        if not MIN_LAST_ANGLE <= self.angles[-1] <= math.pi + 1e-6:
+        if not MIN_LAST_ANGLE <= self.angles[-1] <= math.pi + ANGLE_TOLERANCE:
             errors.append(
                 f"A phase function ends at {self.angles[-1]:g} rad; expected "
-                f"{MIN_LAST_ANGLE:.4g} to {math.pi:.4g} rad."
+                f"{MIN_LAST_ANGLE:.4g} to {math.pi:.5g} rad."
             )
         for value in (min(self.values), max(self.values)):
             if not MIN_VALUE <= value <= MAX_VALUE:

@@ -12,7 +12,6 @@
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -30,7 +29,9 @@ from ..optics import (
     find_water,
 )
 from ..optics.medium import MAX_COEFFICIENT
+from ..optics.phase_table import MIN_VALUE
 from ..optics.spectral import SpectralWater, read_spectrum_table
+from ..optics.spectral.spectral_water import N_WAVELENGTHS
 from ..optics.water_file import read_water
 from ..particles import ParticlesSpec
 from ..schema import NAMESPACE, Numbers, Spec, element
@@ -38,6 +39,10 @@ from ..schema import NAMESPACE, Numbers, Spec, element
 TransferCurve = Literal["srgb", "linear"]
 MAX_MARGIN = 0.5
 """The greatest margin of images, with which they have four times the pixels [1]."""
+RIGHT_ANGLE = 1.5708
+"""The greatest elevation of the sun [rad]: pi/2, rounded up to what files have."""
+HALF_TURN = 3.1416
+"""The greatest scattering angle [rad]: pi, rounded up to what files have."""
 REPLACED_ELEMENTS = ("fog", "color", "attenuation")
 """The elements of ``<oceanState>`` that physical water replaces in images."""
 
@@ -46,7 +51,7 @@ REPLACED_ELEMENTS = ("fog", "color", "attenuation")
 class SunSpec(Spec):
     """A ``<u:sun>``: the light above the water's surface."""
 
-    elevation: float = element(namespaced=True, default=0.9, minimum=0.0, maximum=math.pi / 2)
+    elevation: float = element(namespaced=True, default=0.9, minimum=0.0, maximum=RIGHT_ANGLE)
     """The elevation of the sun above the horizon [rad]."""
     azimuth: float = element(namespaced=True, default=1.3)
     """The direction of the sun from W's x axis towards y [rad]."""
@@ -116,9 +121,9 @@ class FournierForandSpec(PhaseFunctionSpec):
 class PhaseTableSpec(PhaseFunctionSpec):
     """A ``<u:phaseTable>``: a measured phase function."""
 
-    angles: Numbers = element(namespaced=True, minimum=0.0, maximum=3.2)
+    angles: Numbers = element(namespaced=True, minimum=0.0, maximum=HALF_TURN)
     """The 5 to 200 scattering angles, rising, from at most 10 to at least 150 degrees [rad]."""
-    values: Numbers = element(namespaced=True, minimum=0.0)
+    values: Numbers = element(namespaced=True, minimum=MIN_VALUE)
     """The value at each angle, 5 to 200 numbers [1/sr]."""
 
     @property
@@ -145,13 +150,21 @@ class WaterSpectrumSpec(Spec):
     file: str = element(namespaced=True, default="")
     """The name of a table: a CSV file with the columns ``wavelength`` [nm] and two of
     ``absorption``, ``beam_attenuation`` and ``scattering`` [1/m]."""
-    wavelengths: Numbers = element(namespaced=True, default=(), minimum=300.0, maximum=1000.0)
+    wavelengths: Numbers = element(
+        namespaced=True, default=(), minimum=300.0, maximum=1000.0, max_count=N_WAVELENGTHS[1]
+    )
     """The 3 to 1000 wavelengths, rising, from at most 450 to at least 620 [nm]."""
-    absorption: Numbers = element(namespaced=True, default=(), maximum=MAX_COEFFICIENT)
+    absorption: Numbers = element(
+        namespaced=True, default=(), maximum=MAX_COEFFICIENT, max_count=N_WAVELENGTHS[1]
+    )
     """The absorption at each wavelength [1/m]."""
-    beam_attenuation: Numbers = element(namespaced=True, default=(), maximum=MAX_COEFFICIENT)
+    beam_attenuation: Numbers = element(
+        namespaced=True, default=(), maximum=MAX_COEFFICIENT, max_count=N_WAVELENGTHS[1]
+    )
     """The beam attenuation at each wavelength [1/m]."""
-    scattering: Numbers = element(namespaced=True, default=(), maximum=MAX_COEFFICIENT)
+    scattering: Numbers = element(
+        namespaced=True, default=(), maximum=MAX_COEFFICIENT, max_count=N_WAVELENGTHS[1]
+    )
     """The scattering at each wavelength [1/m]."""
     excludes_water: bool = element(namespaced=True, default=False)
     """True if the numbers are those of what the water contains, such as from an ac-s that was set

@@ -37,7 +37,7 @@ REQUIRED_BY_DTD = Original(is_required=True)
 
 
 class Limits(TypedDict, total=False):
-    """The limits of a number, as keyword arguments of `element`."""
+    """The limits of a number, or of numbers, as keyword arguments of `element`."""
 
     minimum: float
     """The smallest value allowed."""
@@ -47,6 +47,9 @@ class Limits(TypedDict, total=False):
     """The limit that values must exceed."""
     exclusive_maximum: float
     """The limit that values must be less than."""
+    max_count: int
+    """The greatest count of numbers in one element, if it is not `uwsim.schema.values.MAX_NUMBERS`.
+    """
 
 
 ReferenceKind = Literal["actuators", "body", "camera", "contacts", "vehicle"]
@@ -99,7 +102,7 @@ def element(
         original: how the original reads the element.
         refers_to: the kind of part of a scene that the field names, such as ``body``
             (`uwsim.benchmark.unknown_names.RESOLVERS`).
-        limits: the limits of a number, as in `Limits`.
+        limits: the limits of a number or of numbers, as in `Limits`.
     """
     if refers_to not in (None, *get_args(ReferenceKind)):
         raise ValueError(

@@ -24,7 +24,8 @@ TOKENS = {
 """The constants that are read as numbers."""
 
 MAX_NUMBERS = 200
-"""The greatest count of numbers in one element: the angles of a measured phase function."""
+"""The greatest count of numbers in one element, such as the angles of a measured phase function.
+`Limits.max_count` of an element may be greater."""
 BLANKS = " \t\n\r"
 """The blank characters of XML, which are removed around a text."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -162,8 +163,9 @@ def parse_numbers(
         word for word, value in zip(words, values, strict=True)
         if value is None or not field.allows(value)
     ]  # fmt: skip
-    if len(words) > MAX_NUMBERS:
-        message = f"has {len(words)} numbers; expected {MAX_NUMBERS} at most"
+    max_count = field.xml.limits.get("max_count", MAX_NUMBERS)
+    if len(words) > max_count:
+        message = f"has {len(words)} numbers; expected {max_count} at most"
     elif invalid_words or not words:
         message = f"contains {quote((invalid_words or [text])[0])}; expected {field.expected}"
     elif excessive_words:

@@ -31,7 +31,7 @@ def make_water(model: SceneModel) -> Water:
     physical_water = PhysicalWater(
         medium=medium,
         daylight=Daylight(
-            elevation=spec.sun.elevation,
+            elevation=min(spec.sun.elevation, 0.5 * math.pi),
             azimuth=spec.sun.azimuth,
             irradiance=spec.sun.irradiance,
             sky_share=spec.sun.sky_share,
