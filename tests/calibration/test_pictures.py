@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 from pathlib import Path
 
@@ -93,6 +94,33 @@ def test_a_missing_frame_and_a_huge_one_are_refused(
             cv2.imwrite(str(path), COLOURS.astype(np.uint16))
         with pytest.raises(AssetError, match="expected at most 19"):
             read_frame(path)
+
+
+def write_header(shape: tuple[int, ...], number_type: str = "<f8") -> bytes:
+    """Return the header of an NPY file."""
+    stream = io.BytesIO()
+    header = {"descr": number_type, "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(stream, header)
+    return stream.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("shape", "message"),
+    [
+        ((1_000_000, 1_000_000, 3), "has 1000000x1000000 pixels; expected at most 26000000"),
+        ((2**32, 2**32), "expected at most 26000000"),
+        ((2, 2, 10**9), r"has 16 bytes of numbers; expected 32000000000 for the shape \(2, 2, "),
+        ((3, 4), r"has 16 bytes of numbers; expected 96 for the shape \(3, 4\) of its header"),
+        ((-1, 4), r"is not an NPY file: its shape is \(-1, 4\)"),
+    ],
+)
+def test_the_header_of_an_npy_file_is_checked_before_memory_is_allocated(
+    shape: tuple[int, ...], message: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "frame.npy"
+    path.write_bytes(write_header(shape) + bytes(16))
+    with pytest.raises(AssetError, match=message):
+        read_frame(path)
 
 
 def test_frames_of_two_sizes_are_refused(tmp_path: Path) -> None:

@@ -8,11 +8,13 @@ red, green and blue. Sizes are checked before a picture is decoded. Raw files ne
 from __future__ import annotations
 
 import io
+import math
 import struct
 import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -106,14 +108,37 @@ def average_frames(paths: Iterable[Path]) -> FrameMean:
 
 
 def _read_array(path: Path, data: bytes) -> FloatArray:
+    stream = io.BytesIO(data)
     try:
-        array = np.load(io.BytesIO(data), allow_pickle=False)
+        shape, number_type = _read_array_header(stream)
     except (ValueError, EOFError, OSError) as error:
         raise AssetError(f"{path}: is not an NPY file: {str(error)[:100]}") from None
-    if not isinstance(array, np.ndarray) or array.dtype.kind not in "uif":
+    if number_type.kind not in "uif":
         raise AssetError(f"{path}: has no real numbers.")
-    _check_size(path, array.shape[:2])
-    return np.asarray(array)
+    _check_size(path, shape[:2])
+    n_bytes, n_expected = len(data) - stream.tell(), math.prod(shape) * number_type.itemsize
+    if n_bytes < n_expected:
+        raise AssetError(
+            f"{path}: has {n_bytes} bytes of numbers; expected {n_expected} for the shape {shape} "
+            "of its header."
+        )
+    try:
+        return np.asarray(np.load(io.BytesIO(data), allow_pickle=False))
+    except (ValueError, EOFError, OSError) as error:
+        raise AssetError(f"{path}: is not an NPY file: {str(error)[:100]}") from None
+
+
+def _read_array_header(stream: io.BytesIO) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    """Read the shape and the type of the numbers of an NPY file; the numbers follow."""
+    version = np.lib.format.read_magic(stream)
+    if version not in ((1, 0), (2, 0)):
+        raise ValueError(f"its version is {version}; expected 1 or 2")
+    is_first = version == (1, 0)
+    read = np.lib.format.read_array_header_1_0 if is_first else np.lib.format.read_array_header_2_0
+    shape, _, number_type = read(stream)
+    if any(length < 0 for length in shape):
+        raise ValueError(f"its shape is {shape}")
+    return shape, number_type
 
 
 def _decode(path: Path, data: bytes) -> FloatArray:
@@ -165,7 +190,7 @@ def _read_tiff_size(data: bytes) -> tuple[int, int]:
 
 
 def _check_size(path: Path, size: tuple[int, ...]) -> None:
-    if int(np.prod(size)) > MAX_PIXELS:
+    if math.prod(size) > MAX_PIXELS:
         raise AssetError(
             f"{path}: has {'x'.join(map(str, size))} pixels; expected at most {MAX_PIXELS}."
         )
