@@ -245,6 +245,19 @@ def test_wrong_input_gets_one_line_that_names_what_is_right(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("view", [(), ("--view", "orbit")])
+def test_a_size_counts_the_margin_of_the_image(
+    view: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "scene.xml"
+    path.write_text(SEA.replace("</u:type>", "</u:type><u:blurMargin>0.5</u:blurMargin>"))
+    arguments = ["render", str(path), "--size", "7680x4320", *view]
+    assert main([*arguments, "-o", str(tmp_path / "a.png")]) == 2
+    *_, line = capsys.readouterr().err.splitlines()
+    assert "--size: an image of 7680 x 4320 pixels, 132.7 million with <u:blurMargin>" in line
+    assert line.endswith("expected at most 33 million.")
+
+
 SEA = """<UWSimScene xmlns:u="urn:uwsim:1"><oceanState> <depth>30</depth>
 <u:waves><u:jonswap><u:significantHeight>0.8</u:significantHeight><u:peakPeriod>4</u:peakPeriod>
 </u:jonswap></u:waves><u:water law="physical"><u:type>jerlov-II</u:type></u:water></oceanState>

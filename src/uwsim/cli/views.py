@@ -87,6 +87,7 @@ class ViewRequest:
 
     def render(self, simulation: Simulation, scene: SceneSpec) -> RenderedView:
         """Draw the image; raise UnknownName for a camera, BadSetting for an impossible view."""
+        from ..scene.sizes import find_size_error
         from ..simulation import views
 
         is_view = self.sight_line is not None or self.view is not None
@@ -96,6 +97,9 @@ class ViewRequest:
                 f"The scene has {len(cameras)} virtual cameras; choose one with --camera: "
                 f"{', '.join(cameras)}; or a --view: {', '.join(VIEW_NAMES)}."
             )
+        water = scene.ocean_state.water
+        if self.size is not None and (error := find_size_error(*self.size, water)):
+            raise BadSetting(f"--size: {error}.")
         if cameras and not is_view:
             return self._render_camera(simulation, cameras[0])
         params = scene.sim_params

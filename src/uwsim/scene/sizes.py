@@ -11,6 +11,7 @@ from ..sensors.sonar.spec import SonarSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from ..waves import find_sea_errors
+from .physical_water import PhysicalWaterSpec
 from .spec import SceneSpec
 
 MAX_PIXELS = 7680 * 4320
@@ -34,17 +35,10 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         diagnostics.error(line_of(ocean, tag), message)
     n_total = 0
     for image in _cameras(scene):
-        scale = 1.0 + 2.0 * ocean.water.blur_margin if ocean.water is not None else 1.0
-        n = round(image.resw * image.resh * scale * scale)
-        if n > MAX_PIXELS:
-            margin = f", {n / 1e6:.1f} million with <u:blurMargin>" if scale > 1.0 else ""
-            diagnostics.error(
-                image,
-                f"an image of {image.resw} x {image.resh} pixels{margin}; expected at most "
-                f"{MAX_PIXELS / 1e6:.0f} million",
-            )
+        if error := find_size_error(image.resw, image.resh, ocean.water):
+            diagnostics.error(image, error)
             continue
-        n_total += n
+        n_total += _count_pixels(image.resw, image.resh, ocean.water)
         if n_total > MAX_TOTAL_PIXELS:
             diagnostics.error(
                 image,
@@ -75,6 +69,30 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     ):
         for error in _sonar_errors(sonar):
             diagnostics.error(sonar, error)
+
+
+def find_size_error(width: int, height: int, water: PhysicalWaterSpec | None) -> str:
+    """Describe an image of too many pixels, those of its margin included; empty if it has not.
+
+    Args:
+        width: the width of the image [px].
+        height: the height of the image [px].
+        water: the physical water of the scene; None if it has the fog law.
+    """
+    n_pixels = _count_pixels(width, height, water)
+    if n_pixels <= MAX_PIXELS:
+        return ""
+    has_margin = water is not None and water.blur_margin > 0.0
+    margin = f", {n_pixels / 1e6:.1f} million with <u:blurMargin>" if has_margin else ""
+    return (
+        f"an image of {width} x {height} pixels{margin}; expected at most "
+        f"{MAX_PIXELS / 1e6:.0f} million"
+    )
+
+
+def _count_pixels(width: int, height: int, water: PhysicalWaterSpec | None) -> int:
+    scale = 1.0 if water is None else 1.0 + 2.0 * water.blur_margin
+    return round(width * height * scale * scale)
 
 
 def _sonar_errors(sonar: SonarSpec) -> Iterator[str]:
