@@ -95,6 +95,64 @@ def test_a_setting_is_applied_before_it_is_shown(capsys: pytest.CaptureFixture[s
     assert "fog 0.4 1/m" in text
 
 
+@pytest.mark.parametrize(
+    ("scene", "parts"),
+    [
+        (
+            "pier-waves-scene",
+            (
+                "m, jonswap of significant height 0.5 m, period 4.5 s\n",
+                "physical water jerlov-1C: absorption (red, green, blue) (0.3646, 0.08623, ",
+                "sun 0.65 rad high, irradiance 1; ripples of a wind of 4 m/s\n",
+            ),
+        ),
+        (
+            "wreck-physical-scene",
+            (
+                "m, level\n",
+                "physical water jerlov-IB: ",
+                "particles: marine snow 5000 1/m3, sediment that thrusters stir up\n",
+            ),
+        ),
+    ],
+)
+def test_waves_water_light_and_particles_are_named(
+    scene: str, parts: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = said(capsys, scene)
+    unwrapped_text = re.sub(r"(?<=\S)\n  (?=scattering)", " ", text)
+    assert all(part in unwrapped_text for part in parts)
+
+
+def test_water_without_light_and_waves_without_a_period_are_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text(
+        """<UWSimScene xmlns:u="urn:uwsim:1"> <oceanState> <windSpeed>0</windSpeed>
+<u:waves> <u:uwsimOcean/>
+<u:regularWave> <u:height>0.3</u:height> <u:period>2.5</u:period> </u:regularWave> </u:waves>
+<u:water law="physical">
+<u:absorption> <r>0.4</r> <g>0.1</g> <b>0.1</b> </u:absorption>
+<u:scattering> <r>0.2</r> <g>0.2</g> <b>0.3</b> </u:scattering>
+<u:sun> <u:irradiance>0</u:irradiance> </u:sun>
+<u:ripples> <u:windSpeed>0</u:windSpeed> </u:ripples>
+<u:particles> <u:bubbles> <u:source> <x>3</x> <y>0</y> <z>-9</z> </u:source> </u:bubbles>
+</u:particles> </u:water> </oceanState> </UWSimScene>"""
+    )
+    text = said(capsys, str(file))
+    for part in (
+        "uwsimOcean of significant height 0 m, regularWave of height 0.3 m, period 2.5 s",
+        "physical water of its coefficients: absorption (red, green, blue) (0.4, 0.1, 0.1) 1/m",
+        "no sun; ripples of a wind of 0 m/s",
+        "particles: bubbles 40 1/s from (3, 0, -9) m",
+    ):
+        assert part in text
+    water = json.loads(said(capsys, str(file), "--json"))["water"]
+    assert water["physical"]["scattering"] == [0.2, 0.2, 0.3]
+    assert [wave["height"] for wave in water["waves"]] == [0.0, 0.3]
+
+
 def test_a_scene_with_errors_is_refused_with_its_lines(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -275,3 +275,19 @@ def test_the_same_seed_gives_the_same_sea() -> None:
     assert first.phase.tobytes() == second.phase.tobytes()
     assert first.direction.tobytes() == second.direction.tobytes()
     assert first.phase.tobytes() != other.phase.tobytes()
+
+
+@pytest.mark.parametrize("wind_speed", [0.0, 6.0, 12.0])
+def test_the_expected_height_of_uwsim_s_ocean_is_that_of_many_seeds(wind_speed: float) -> None:
+    sea = SeaSettings(
+        depth=50.0,
+        wind=(0.04, 0.02),
+        wind_speed=wind_speed,
+        reflection_damping=0.35,
+        wave_scale=1e-7,
+    )
+    spec = UwsimOceanSpec()
+    heights = [spec.components(sea, stream(k, "waves")).significant_height for k in range(40)]
+    variance = np.mean(np.square(heights))
+    # few long waves have most of the energy, so that seeds differ by some 20 %
+    assert math.sqrt(variance) == pytest.approx(spec.expected_height(sea), rel=0.1)

@@ -81,6 +81,7 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(water.slow_currents, Need.SPEC),
     Rule(water.unused_fog, Need.SPEC, in_runs=True),
     Rule(unused_values.unused_values, Need.SPEC, in_runs=True),
+    Rule(waves.flat_seas, Need.SPEC, in_runs=True),
     Rule(waves.breaking_waves, Need.SPEC, in_runs=True),
     Rule(forces.forces_on_bodies, Need.SPEC, in_runs=True),
     Rule(models.projectors, Need.SPEC),

@@ -140,12 +140,38 @@ def _frame(frame: Fields) -> str:
 def _water(water: Fields) -> list[str]:
     attenuation = _format_numbers(water["attenuation"])
     return [
-        f"surface through {_format_numbers(water['surface_above_origin'])} m, level",
-        "images through physical water"
-        if water["image_model"] == "physical"
-        else f"fog {water['fog_density']:g} 1/m; attenuation (red, green, blue) {attenuation} 1/m",
+        f"surface through {_format_numbers(water['surface_above_origin'])} m, "
+        f"{', '.join(map(_wave, water['waves'])) or 'level'}",
+        *(
+            [f"fog {water['fog_density']:g} 1/m; attenuation (red, green, blue) {attenuation} 1/m"]
+            if water["physical"] is None
+            else _physical_water(water["physical"])
+        ),
         f"currents: {', '.join(water['currents']) or 'none'}",
     ]
+
+
+def _wave(wave: Fields) -> str:
+    name = "height" if wave["kind"] == "regularWave" else "significant height"
+    period = "" if wave["period"] is None else f", period {wave['period']:.3g} s"
+    return f"{wave['kind']} of {name} {wave['height']:.3g} m{period}"
+
+
+def _physical_water(water: Fields) -> Iterator[str]:
+    coefficients = (
+        f"absorption (red, green, blue) {_format_numbers(water['absorption'])} 1/m, "
+        f"scattering {_format_numbers(water['scattering'])} 1/m"
+    )
+    yield f"physical water {water['source']}: {coefficients}"
+    sun, wind = water["sun"], water["ripples_wind"]
+    light = (
+        f"sun {sun['elevation']:.3g} rad high, irradiance {sun['irradiance']:g}"
+        if sun["irradiance"] > 0.0
+        else "no sun"
+    )
+    yield f"{light}; {'no ripples' if wind is None else f'ripples of a wind of {wind:g} m/s'}"
+    if water["particles"]:
+        yield f"particles: {', '.join(water['particles'])}"
 
 
 def _vehicle(vehicle: Fields) -> list[str]:

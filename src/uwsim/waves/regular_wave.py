@@ -34,6 +34,10 @@ class RegularWaveSpec(WaveSystemSpec):
         """Return its wave number [rad/m]."""
         return float(wave_numbers(np.array([2.0 * np.pi / self.period]), sea.depth)[0])
 
+    def expected_height(self, sea: SeaSettings) -> float:
+        """Return its height [m]."""
+        return self.height
+
     def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
         """Return its single component; nothing is drawn."""
         return WaveComponents(

@@ -76,6 +76,11 @@ class UwsimOceanSpec(WaveSystemSpec):
         peak = int(np.argmax(power))
         return math.hypot(kx[peak], ky[peak]) if power[peak] > 0.0 else 0.0
 
+    def expected_height(self, sea: SeaSettings) -> float:
+        """Return four standard deviations of the elevation, over all seeds [m]."""
+        _, _, power = wave_power(sea)
+        return 4.0 * math.sqrt(2.0 * float(power.sum()))  # |h0|^2 has two standard normal parts
+
     def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
         """Draw its components."""
         real_part, imaginary_part = rng.standard_normal((2, GRID_SIZE, GRID_SIZE))

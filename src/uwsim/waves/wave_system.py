@@ -52,6 +52,10 @@ class WaveSystemSpec(Spec, abc.ABC):
     def peak_number(self, sea: SeaSettings) -> float:
         """Return the wave number of the waves with the most energy; 0 without waves [rad/m]."""
 
+    @abc.abstractmethod
+    def expected_height(self, sea: SeaSettings) -> float:
+        """Return the significant height that is expected, or that of a single wave [m]."""
+
     def sea_errors(self, sea: SeaSettings) -> Iterable[str]:
         """Return errors of the settings that only this system uses, each with its element first."""
         return ()
@@ -89,6 +93,10 @@ class IrregularWavesSpec(WaveSystemSpec, abc.ABC):
             direction=self.direction,
             spreading=self.spreading,
         )
+
+    def expected_height(self, sea: SeaSettings) -> float:
+        """Return the significant height of the spectrum [m]."""
+        return self.spectrum.significant_height
 
     def peak_number(self, sea: SeaSettings) -> float:
         """Return the wave number of the spectrum's peak [rad/m]."""

@@ -1,4 +1,4 @@
-"""Waves that would break, and vehicles that are long for them, are warned of with their line."""
+"""Flat seas, waves that would break, and vehicles that are long for them are warned of."""
 
 from __future__ import annotations
 
@@ -74,6 +74,31 @@ def test_a_wave_that_would_break_is_warned_of(
 )
 def test_waves_that_do_not_break_are_not(waves: str, tmp_path: Path) -> None:
     assert warnings(tmp_path, waves, depth=1000.0) == []
+
+
+def test_an_element_without_waves_is_warned_of(tmp_path: Path) -> None:
+    (warning,) = warnings(tmp_path, "")
+    assert warning == (
+        "2 warning <u:waves> is empty: the sea is flat; expected one or more of <u:jonswap>, "
+        "<u:piersonMoskowitz>, <u:regularWave>, <u:uwsimOcean>"
+    )
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        "<windSpeed>0</windSpeed>",
+        "<windx>0</windx> <windy>0</windy>",
+        "<waveScale>0</waveScale>",
+    ],
+)
+def test_an_ocean_without_wind_is_warned_of(setting: str, tmp_path: Path) -> None:
+    path = tmp_path / "scene.xml"
+    scene = SCENE.format(waves="<u:uwsimOcean/>", depth=30, vehicle="")
+    path.write_text(scene.replace("<depth>", f"{setting} <depth>"))
+    (warning,) = check_file(path)
+    assert warning.line == 3
+    assert warning.message.startswith("<u:uwsimOcean> is flat: its waves are 0 m high with <wind")
 
 
 def test_a_number_of_uwsim_s_ocean_counts_where_its_waves_are(tmp_path: Path) -> None:

@@ -1,4 +1,6 @@
-r"""Warnings about waves that would break, which linear theory does not describe.
+r"""Warnings about seas that are flat, and waves that would break.
+
+Linear theory does not describe breaking waves.
 
 A regular wave breaks above the height :math:`0.142 \lambda \tanh kh` (Miche 1944; Dean and
 Dalrymple 1991, section 4.8). The steepest seas that last have a steepness
@@ -15,10 +17,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...errors import Diagnostic
+from ...schema import NAMESPACE
 from ...waves import (
+    WAVE_SYSTEMS,
     IrregularWavesSpec,
     RegularWaveSpec,
     SeaSettings,
+    UwsimOceanSpec,
     WaveSystemSpec,
     find_sea_errors,
     wave_numbers,
@@ -30,6 +35,31 @@ MICHE_CONSTANT = 0.142
 """The greatest height of a wave in deep water, over its length [1]."""
 STEEPNESS_PERIODS, MAX_STEEPNESSES = (8.0, 15.0), (1.0 / 15.0, 1.0 / 25.0)
 """Peak periods [s], and the greatest steepness of seas with these periods [1]."""
+MIN_HEIGHT = 1e-3
+"""The least height of waves that are not flat; a height of 0 in a file is meant so [m]."""
+
+
+def flat_seas(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """Warn of ``<u:waves>`` without waves, and of wind too weak for waves of UWSim's ocean."""
+    ocean = scene.spec.ocean_state
+    if any(find_sea_errors(ocean.waves, ocean.sea)):  # reported where the scene is read
+        return
+    elements = {} if ocean.source_line is None else ocean.source_line.elements
+    tag = f"{{{NAMESPACE}}}waves"
+    if not ocean.waves and tag in elements:
+        names = ", ".join(f"<u:{name}>" for name in WAVE_SYSTEMS)
+        yield scene.warning(
+            ocean, f"<u:waves> is empty: the sea is flat; expected one or more of {names}", tag
+        )
+    for system in ocean.waves:
+        height = system.expected_height(ocean.sea)
+        if isinstance(system, UwsimOceanSpec) and height < MIN_HEIGHT:
+            yield scene.warning(
+                system,
+                f"<u:uwsimOcean> is flat: its waves are {height:.2g} m high with <windSpeed> "
+                f"{ocean.wind_speed:g}, <windx> {ocean.windx:g}, <windy> {ocean.windy:g} and "
+                f"<waveScale> {ocean.wave_scale:g}; expected at least {MIN_HEIGHT:g} m",
+            )
 
 
 def breaking_waves(scene: CheckedScene) -> Iterator[Diagnostic]:

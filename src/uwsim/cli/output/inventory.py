@@ -31,6 +31,7 @@ from ...sensors.virtual_camera import VirtualCameraSpec
 from ...simulation import Simulation
 from ...simulation.scenery.below import surfaces_below_vehicle
 from .topic_rows import topic_rows
+from .water_fields import list_water
 
 Fields = dict[str, Any]
 
@@ -46,7 +47,7 @@ def inventory(
     return {
         "file": scene.path,
         "frame": _frame(scene),
-        "water": _water(scene),
+        "water": list_water(model_scene, simulation.world.model.optical_water),
         "vehicles": [_vehicle(model_scene, i, simulation) for i in range(len(scene.vehicles))],
         "cameras": _cameras(scene, simulation.world.model.robots),
         "sensors": sensors,
@@ -81,20 +82,6 @@ def _frame(scene: SceneSpec) -> Fields:
         "up": f"{sign}{'xyz'[axis]}" if is_straight else _round(up),
         "offset": list(scene.sim_params.offsetp),
         "rotation": list(scene.sim_params.offsetr),
-    }
-
-
-def _water(scene: SceneSpec) -> Fields:
-    ocean = scene.ocean_state
-    surface = np.array([[0.0, 0.0, ocean.ocean_surface_height]])
-    return {
-        "surface_above_origin": _round(scene.world_from_localized.inverse().transform(surface)[0]),
-        "image_model": "uwsim" if ocean.water is None else ocean.water.law,
-        "fog_density": ocean.fog.density,
-        "fog_colour": list(ocean.fog.color),
-        "colour": list(ocean.color),
-        "attenuation": list(ocean.attenuation),
-        "currents": [type(current).__name__.removesuffix("Spec") for current in ocean.currents],
     }
 
 
