@@ -230,7 +230,7 @@ def make_exact_readings(water: WaterNumbers, reference: WaterNumbers) -> list[Re
     same_shape = WaterNumbers(reference.absorption, reference.scattering, water.shape)
     losses = model.compute_losses(water) - model.compute_losses(same_shape)
     return [
-        replace(reading, signal=math.exp(-loss))
+        replace(reading, signal=reading.geometry * math.exp(-loss))
         for reading, loss in zip(readings, losses, strict=True)
     ]
 
@@ -277,3 +277,32 @@ def test_readings_that_do_not_determine_a_water_are_refused(
 ) -> None:
     with pytest.raises(BadSetting, match=message):
         estimate_water(readings, WaterNumbers(0.04, 0.02, 1.0))
+
+
+@pytest.mark.filterwarnings("error")
+def test_leds_at_one_range_start_a_fit_without_a_line_through_them() -> None:
+    """A board at three ranges is sufficient: the LEDs beside it have one range."""
+    leds = [
+        LedReading(
+            channel="red", source="led", distance=1.0, half_angle=half_angle, signal=1.0,
+            reference=None, noise=0.003,
+        )
+        for half_angle in HALF_ANGLES
+    ]  # fmt: skip
+    boards = [
+        BoardReading(
+            channel="red", source="board", distance=distance, side=0.15, signal=1.0,
+            reference=None, noise=0.003, lamp_distance=distance, lamp_half_angle=LAMP_HALF_ANGLE,
+            incidence=1.0,
+        )
+        for distance in (0.5, 1.0, 1.5, 2.0)
+    ]  # fmt: skip
+    readings: list[Reading] = [*leds, *boards]
+    truth = WaterNumbers(0.3, 0.7, 0.7)
+    losses = ForwardModel.from_readings(readings).compute_losses(truth)
+    exact_readings = [
+        replace(reading, signal=reading.geometry * math.exp(-loss))
+        for reading, loss in zip(readings, losses, strict=True)
+    ]
+    estimate = estimate_water(exact_readings, WaterNumbers(0.05, 0.01, 0.7), Accuracy())
+    assert estimate.water.beam_attenuation == pytest.approx(1.0, abs=0.05)

@@ -229,8 +229,10 @@ class _Fit:
             index = min(with_reference, key=lambda i: _size_of(self._readings[i]))
             added_attenuation = float(self._measured_losses[index] / lengths[index])
             return max(added_attenuation + self._reference.beam_attenuation, 0.01)
-        slope = np.polyfit(lengths[candidates], self._measured_losses[candidates], 1)[0]
-        return max(float(slope), 0.01)
+        lengths, losses = lengths[candidates], self._measured_losses[candidates]
+        if np.ptp(lengths) <= MIN_SPREAD * np.max(lengths):  # no line is determined
+            return max(float(np.mean(losses) / np.mean(lengths)), 0.01)
+        return max(float(np.polyfit(lengths, losses, 1)[0]), 0.01)
 
     def _make_start(self, attenuation: float, albedo: float) -> FloatArray:
         water = WaterNumbers((1.0 - albedo) * attenuation, albedo * attenuation, SHAPE_PRIOR[0])
