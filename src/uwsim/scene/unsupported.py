@@ -66,6 +66,7 @@ DISABLED_TEXTS = {"disableShaders": "0", "enablePhysics": "0", "showpath": "0"}
 
 
 READ_ONLY = "read, not simulated yet"
+READ_WITHOUT_WAVES = "read, not simulated without <u:waves>"
 ONLY_WITHOUT_DYNAMICS = "simulated where no vehicle has u:dynamics"
 ONLY_WITH_WAVES = "simulated in a scene with u:waves"
 ONLY_WITH_OCEAN = "simulated in a scene with u:uwsimOcean"

@@ -117,6 +117,14 @@ def test_a_number_of_uwsim_s_ocean_counts_where_its_waves_are(tmp_path: Path) ->
             assert any(unread in message for message in messages) == (text in texts)
 
 
+def test_a_depth_without_waves_is_not_called_waves(tmp_path: Path) -> None:
+    path = tmp_path / "scene.xml"
+    path.write_text("<UWSimScene>\n<oceanState> <depth>30</depth> </oceanState>\n</UWSimScene>")
+    assert [each.message for each in check_file(path)] == [
+        "read, not simulated without <u:waves>: depth (line 2)"
+    ]
+
+
 def test_a_vehicle_that_is_long_for_the_waves_is_warned_of(tmp_path: Path) -> None:
     """A BlueROV2 of 0.575 m in waves of 1 s, which are 1.56 m long."""
     short, long = SEA.format(0.05, 1.0), SEA.format(0.05, 2.0)

@@ -14,6 +14,7 @@ from ...scene.unsupported import (
     OCEAN_ELEMENTS,
     ORIGINAL_PHYSICS_ELEMENTS,
     READ_ONLY,
+    READ_WITHOUT_WAVES,
     UNSIMULATED_ELEMENTS,
 )
 from ...schema import NAMESPACE
@@ -49,6 +50,8 @@ def unsimulated_elements(root: etree._Element) -> Iterator[tuple[int, str]]:
             or (has_ocean and tags in OCEAN_ELEMENTS)
         ):
             kind = None
+        elif tags == DEPTH_ELEMENT:
+            kind = "depth"
         elif has_physics and parent.tag == "physics" and node.tag in LIMIT_ELEMENTS:
             kind = "limits of objects"
         if kind is not None and DISABLED_TEXTS.get(str(node.tag)) != (node.text or "").strip():
@@ -58,7 +61,8 @@ def unsimulated_elements(root: etree._Element) -> Iterator[tuple[int, str]]:
         is_long = len(sorted_lines) > 8
         line_list = ", ".join(map(str, sorted_lines[:8])) + (", ..." if is_long else "")
         noun = "line" if len(sorted_lines) == 1 else "lines"
-        yield sorted_lines[0], f"{READ_ONLY}: {kind} ({noun} {line_list})"
+        limitation = READ_WITHOUT_WAVES if kind == DEPTH_ELEMENT[1] else READ_ONLY
+        yield sorted_lines[0], f"{limitation}: {kind} ({noun} {line_list})"
 
 
 def _line(node: etree._Element) -> int:
