@@ -126,6 +126,7 @@ def test_written_readings_are_read_again(tmp_path: Path) -> None:
     [
         ("water,chanel\n", "csv:1: 'chanel' is not a column of readings. Did you mean 'channel'?"),
         ("water,channel,source,range_m,signal\n", "there is no row"),
+        ("water;channel;source\n", "csv:1: the columns are separated by semicolons; expected comm"),
         (
             "water,channel,source,range_m,half_angle_deg,signal\nw,red,led,1,1,x\n",
             "csv:2: signal is 'x'; expected a number",
@@ -150,3 +151,21 @@ def test_each_mistake_of_readings_is_named(text: str, message: str, tmp_path: Pa
     with pytest.raises(ReadingsError) as error:
         read_readings(path, ["red"])
     assert message in str(error.value)
+
+
+def test_a_water_that_the_set_up_lacks_is_reported_once_with_the_nearest_name(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "readings.csv"
+    path.write_text(
+        "water,channel,source,range_m,half_angle_deg,signal\n"
+        "one drop,red,led,1,1,2\none drp,red,led,1,1,2\none drp,red,led,1,2,2\n"
+    )
+    with pytest.raises(ReadingsError) as error:
+        read_readings(path, ["red"], ["one drop", "two drops"])
+    (diagnostic,) = error.value.diagnostics
+    assert diagnostic.line == 3
+    assert diagnostic.message.startswith(
+        "no water of the set-up is called 'one drp'. Did you mean 'one drop'?"
+    )
+    assert len(read_readings(path, ["red"])) == 2

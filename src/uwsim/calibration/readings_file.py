@@ -16,8 +16,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..base.files.input_files import read_bytes
-from ..errors import AssetError, Diagnostic, FileError, choices
+from ..base.files.input_files import read_document
+from ..errors import Diagnostic, FileError, choices
+from ..optics.spectral.spectrum_table import find_separator_error
 from .measurements import OpenWaterReading, WaterReadings
 from .readings import BoardReading, LedReading, Reading
 
@@ -60,23 +61,26 @@ def write_readings(waters: Iterable[WaterReadings]) -> str:
     return stream.getvalue()
 
 
-def read_readings(path: Path, channels: Sequence[str]) -> tuple[WaterReadings, ...]:
+def read_readings(
+    path: Path, channels: Sequence[str], waters: Sequence[str] = ()
+) -> tuple[WaterReadings, ...]:
     """Read a file of readings.
 
     Args:
         path: the file.
         channels: the channels of the set-up.
+        waters: the waters of the set-up; empty: any name is valid.
 
     Raises:
         ReadingsError: the file is invalid; the error has every mistake, with its line.
     """
     try:
-        text = read_bytes(path, at_most=MAX_BYTES).decode("utf-8-sig")
-    except OSError as error:
-        raise _error(path, None, f"cannot be read: {error.strerror or error}") from None
-    except (AssetError, UnicodeDecodeError) as error:
-        raise _error(path, None, str(error)) from None
-    table = _Table(path, channels)
+        text = read_document(path, at_most=MAX_BYTES).decode("utf-8-sig")
+    except FileError as error:
+        raise ReadingsError(error.diagnostics) from None
+    except UnicodeDecodeError as error:
+        raise _error(path, None, f"byte {error.start} is not UTF-8 text") from None
+    table = _Table(path, channels, waters)
     table.read(text)
     return table.make_waters()
 
@@ -111,9 +115,11 @@ def _error(path: Path, line: int | None, message: str) -> ReadingsError:
 class _Table:
     """The rows of a file, with all of its errors."""
 
-    def __init__(self, path: Path, channels: Sequence[str]) -> None:
+    def __init__(self, path: Path, channels: Sequence[str], waters: Sequence[str]) -> None:
         self._path = path
         self._channels = channels
+        self._waters = waters
+        self._unknown_waters: set[str] = set()
         self._diagnostics: list[Diagnostic] = []
         self._doses: dict[str, float | None] = {}
         self._readings: dict[str, list[Reading]] = {}
@@ -149,6 +155,8 @@ class _Table:
         )
 
     def _check_header(self, columns: Sequence[str]) -> None:
+        if error := find_separator_error(columns):
+            raise _error(self._path, 1, error)
         for column in columns:
             if column not in COLUMNS:
                 self._report(
@@ -175,6 +183,11 @@ class _Table:
         if channel not in self._channels:
             suggestion = choices(channel, self._channels)
             self._report(line, f"no channel is called {channel!r:.60}.{suggestion}")
+        name = texts["water"]
+        if self._waters and name not in (*self._waters, *self._unknown_waters):
+            self._unknown_waters.add(name)
+            suggestion = choices(name, self._waters)
+            self._report(line, f"no water of the set-up is called {name!r:.60}.{suggestion}")
         signal, distance = numbers["signal"], numbers["range_m"]
         if signal is None or not signal > 0.0:
             self._report(line, "signal is not a positive number")
@@ -182,7 +195,6 @@ class _Table:
             self._report(line, "range_m is not a positive number")
         if len(self._diagnostics) > count or signal is None or distance is None:
             return
-        name = texts["water"]
         self._doses.setdefault(name, numbers["dose"])
         shared_fields = {
             "channel": channel,

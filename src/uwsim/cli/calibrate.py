@@ -134,7 +134,11 @@ def calibrate(
     if options.readings is None:
         waters = read_pictures(spec, setup.parent)
     else:
-        waters = read_readings(options.readings, [channel.name for channel in spec.channels])
+        waters = read_readings(
+            options.readings,
+            [channel.name for channel in spec.channels],
+            [water.name for water in spec.waters],
+        )
     view = View(distance=options.distance, feature_width=options.feature)
     calibration = compute_calibration(make_measurements(spec, waters), view, seed=options.seed)
     water_files = write_calibration(calibration, out, setup.name, overwrite=output.overwrite)

@@ -29,9 +29,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeGuard, TypeVar
 
-from ..base.files.input_files import read_bytes
+from ..base.files.input_files import read_document
 from ..base.files.json_text import read_json
-from ..errors import AssetError, Diagnostic, FileError, SeveralErrors, UwsimError, choices
+from ..errors import Diagnostic, FileError, SeveralErrors, UwsimError, choices
 from .fournier_forand import FournierForand
 from .henyey_greenstein import HenyeyGreenstein
 from .medium import PETZOLD_AVERAGE, Medium
@@ -82,13 +82,7 @@ def read_water(path: Path | str) -> WaterFile:
         FileError: the file is invalid; the error has every mistake, with its line.
     """
     path = Path(path)
-    try:
-        data = read_bytes(path, at_most=MAX_BYTES)
-    except AssetError as error:
-        raise FileError([Diagnostic(file=str(path), line=None, message=str(error))]) from None
-    except OSError as error:
-        message = f"cannot be read: {error.strerror or error}"
-        raise FileError([Diagnostic(file=str(path), line=None, message=message)]) from None
+    data = read_document(path, at_most=MAX_BYTES)
     reader = _Reader(str(path), data.decode("utf-8", errors="replace"))
     return reader.read()
 

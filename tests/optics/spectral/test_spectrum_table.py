@@ -8,6 +8,7 @@ import pytest
 
 from uwsim.errors import FileError
 from uwsim.optics.spectral import read_spectrum_table
+from uwsim.optics.spectral.spectrum_table import MAX_BYTES
 
 
 def write(folder: Path, text: str) -> Path:
@@ -33,6 +34,11 @@ def test_a_table_is_read_by_the_names_of_its_columns(tmp_path: Path) -> None:
     ("text", "messages"),
     [
         ("", [":1: is empty"]),
+        (
+            "wavelength;absorption;scattering\n450;0,1;1\n",
+            ["separated by semicolons; expected"],
+        ),
+        ("wavelength\tabsorption\tscattering\n", [":1: the columns are separated by tabs"]),
         ("wavelength,absorbtion,scattering\n", [":1: no column is called 'absorbtion'."]),
         ("wavelength,absorption\n450,1\n", [":1: the columns are wavelength, absorption; expec"]),
         ("absorption,scattering,absorption\n", [":1: a column occurs twice"]),
@@ -53,6 +59,13 @@ def test_every_error_of_a_table_has_its_line(
         read_spectrum_table(write(tmp_path, text))
     for message in messages:
         assert message in str(caught.value)
+
+
+def test_a_table_that_is_too_large_is_named_once(tmp_path: Path) -> None:
+    path = write(tmp_path, "#" * (MAX_BYTES + 1))
+    with pytest.raises(FileError) as caught:
+        read_spectrum_table(path)
+    assert str(caught.value) == f"{path}: is larger than 1 MiB"
 
 
 def test_a_missing_table_is_an_error(tmp_path: Path) -> None:

@@ -156,7 +156,7 @@ def _read_checked(path: Path, name: str, original: Path | None) -> bytes:
     data = read_bytes(path, name=name, at_most=MAX_FILE_BYTES)
     if len(data) > MAX_TEXT_BYTES and _is_text(data, suffix):
         max_mib = MAX_TEXT_BYTES >> 20
-        raise AssetError(f"{path} is text of more than {max_mib} MiB; write it as .glb or .stl.")
+        raise AssetError(f"{path}: is text of more than {max_mib} MiB; write it as .glb or .stl.")
     # a Collada file needs no document type; one that has it may be a trap
     if suffix == ".dae" and (b"<!DOCTYPE" in data or b"<!ENTITY" in data):
         raise AssetError(f"{path}: document types and entities are not read.")
@@ -263,9 +263,9 @@ def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[t
 
 def _check_triangle_count(path: Path, n_triangles: int) -> None:
     if n_triangles == 0:
-        raise AssetError(f"{path} has no triangles.")
+        raise AssetError(f"{path}: has no triangles.")
     if n_triangles > MAX_TRIANGLES:
-        raise AssetError(f"{path} has {n_triangles} triangles; expected at most {MAX_TRIANGLES}.")
+        raise AssetError(f"{path}: has {n_triangles} triangles; expected at most {MAX_TRIANGLES}.")
 
 
 def _transform_part(part: Any, transform: npt.NDArray[np.float64]) -> Any:
@@ -316,7 +316,7 @@ def _convert_part(part: Part, materials: Materials, path: Path) -> Mesh | None:
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise AssetError(f"{path}: a triangle has the index of a vertex that does not exist.")
     if not np.isfinite(vertices).all() or np.abs(vertices).max() > MAX_COORDINATE:
-        raise AssetError(f"{path} has vertices that are infinite or beyond {MAX_COORDINATE:g} m.")
+        raise AssetError(f"{path}: has vertices that are infinite or beyond {MAX_COORDINATE:g} m.")
     uvs = np.zeros((len(vertices), 2))
     appearance = materials.appearance(part.visual)
     uv_values = getattr(part.visual, "uv", None)

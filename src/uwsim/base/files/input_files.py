@@ -20,7 +20,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
-from ...errors import AssetError
+from ...errors import AssetError, Diagnostic, FileError
 
 MAX_BYTES = 512 * 2**20
 """The greatest size of a file [bytes], unless the reader has a smaller limit."""
@@ -86,6 +86,25 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -
     digest = f"sha256:{hashlib.sha256(data).hexdigest()}"
     record([InputFile(portable_name(name or path.name), digest, path)])
     return data
+
+
+def read_document(path: Path, *, at_most: int = MAX_BYTES) -> bytes:
+    """Read a whole input file whose errors are diagnostics, and record its hash.
+
+    Args:
+        path: the path of the file.
+        at_most: the greatest size [bytes].
+
+    Raises:
+        FileError: the file cannot be read, is larger, or is not a regular file.
+    """
+    try:
+        return read_bytes(path, at_most=at_most)
+    except AssetError as error:
+        message = str(error).removeprefix(f"{path}: ").removesuffix(".")
+    except OSError as error:
+        message = f"cannot be read: {error.strerror or error}"
+    raise FileError([Diagnostic(file=str(path), line=None, message=message)])
 
 
 def is_inside(path: Path, folders: Iterable[Path]) -> bool:

@@ -16,10 +16,11 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
-from ...base.files.input_files import read_bytes
-from ...errors import AssetError, Diagnostic, FileError, choices
+from ...base.files.input_files import read_document
+from ...errors import Diagnostic, FileError, choices
 from .spectral_water import N_WAVELENGTHS
 
 MAX_BYTES = 1 << 20
@@ -28,6 +29,8 @@ WAVELENGTH = "wavelength"
 COEFFICIENTS = ("absorption", "beam_attenuation", "scattering")
 COLUMNS = (WAVELENGTH, *COEFFICIENTS)
 """The names of the columns."""
+SEPARATORS = {";": "semicolons", "\t": "tabs"}
+"""The separators that other programs write."""
 
 Spectra = dict[str, tuple[float, ...]]
 """The columns of a table by name."""
@@ -39,13 +42,7 @@ def read_spectrum_table(path: Path) -> Spectra:
     Raises:
         FileError: the table is invalid; the error has every mistake, with its line.
     """
-    try:
-        text = read_bytes(path, at_most=MAX_BYTES).decode("utf-8", errors="replace")
-    except AssetError as error:
-        raise FileError([Diagnostic(file=str(path), line=None, message=str(error))]) from None
-    except OSError as error:
-        message = f"cannot be read: {error.strerror or error}"
-        raise FileError([Diagnostic(file=str(path), line=None, message=message)]) from None
+    text = read_document(path, at_most=MAX_BYTES).decode("utf-8", errors="replace")
     rows = [
         (number, [cell.strip() for cell in next(csv.reader([line]), [])])
         for number, line in enumerate(text.lstrip("\ufeff").splitlines(), start=1)
@@ -69,7 +66,22 @@ def read_spectrum_table(path: Path) -> Spectra:
     return {name: tuple(float(row[index]) for _, row in body) for index, name in enumerate(header)}
 
 
+def find_separator_error(header: Sequence[str]) -> str:
+    """Describe a separator that is no comma; empty if the header has another error, or none.
+
+    Args:
+        header: the cells of the header between commas.
+    """
+    if len(header) == 1:
+        for character, name in SEPARATORS.items():
+            if character in header[0].strip():
+                return f"the columns are separated by {name}; expected commas (1.5,0.2)"
+    return ""
+
+
 def _find_header_errors(header: list[str]) -> list[str]:
+    if error := find_separator_error(header):
+        return [error]
     messages = [
         f"no column is called {name!r:.40}.{choices(name, COLUMNS)}"
         for name in header
