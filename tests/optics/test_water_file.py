@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -122,3 +123,16 @@ def test_an_invalid_spectrum_is_reported_with_its_lines(tmp_path: Path) -> None:
     text = str(error.value)
     assert "lake.json:2: The spectrum has 2 wavelengths; expected 3 to 1000" in text
     assert "lake.json:5: molecular_scattering is that of pure water" in text
+
+
+def test_the_example_of_the_documentation_is_a_water_of_three_channels(tmp_path: Path) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "physical-water.md").read_text()
+    (example,) = re.findall(r"```json\n(.*?)```", page, re.S)
+    path = tmp_path / "water.json"
+    path.write_text(example)
+    water = read_water(path)
+    assert water.name == "station 4"
+    red, green, blue = water.medium.absorption
+    assert red > green
+    assert red > blue
+    assert water.medium.phase_function == FournierForand(1.10, 3.5835)
