@@ -10,6 +10,7 @@ import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
 from tests.support.opened import open_scene
+from uwsim.assets.procedural.sand_texture import TILE, make_sand_texture
 from uwsim.base.geometry import Pose
 from uwsim.devices.dredge_tool import DredgeTool, DredgeToolSpec
 from uwsim.scene.object import ObjectSpec
@@ -18,7 +19,7 @@ from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.dvl_sensor import Dvl, DvlSensorSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.simulation import Simulation
-from uwsim.simulation.scenery.sand import Heap
+from uwsim.simulation.scenery.sand import TEXTURED_COLOUR, Heap
 
 EYE = VirtualCameraSpec(name="eye", relative_to="base_link", position=(0.0, 0.0, 2.0))
 TOOL = DredgeToolSpec(name="dredge", target="base_link")
@@ -49,6 +50,31 @@ def test_digging_takes_a_centimetre_of_each_column_within_a_decimetre() -> None:
     assert sand.height(0.1, 0.35) == pytest.approx(1.1)
     assert sand.dig(np.array([0.1, 0.2, 1.3])) == 0
     assert sand.version == 1
+
+
+def test_sand_with_a_texture_ends_where_its_height_is_zero() -> None:
+    plain_mesh = heap().mesh()
+    texture = make_sand_texture()
+    lower, upper = np.array([0.0, 0.0, 1.0]), np.array([0.2, 0.4, 1.2])
+    sand = Heap("box", lower, upper, 0.5, texture)
+    mesh = sand.mesh()
+    assert mesh.texture is texture
+    np.testing.assert_array_equal(mesh.vertices, plain_mesh.vertices)  # as pages expect them
+    # a rectangle of 0.8 by 1 m whose corners are rounded by 0.3 m
+    area = 0.8 * 1.0 - (4.0 - np.pi) * 0.3**2
+    assert len(mesh.triangles) * 0.01**2 / 2 == pytest.approx(area, rel=0.02)
+    assert np.ptp(mesh.uvs, axis=0) == pytest.approx([0.8 / TILE, 1.0 / TILE], abs=0.01)
+    mean_colour = np.array(mesh.colour) * texture.pixels.mean() / 255.0
+    assert mean_colour == pytest.approx(TEXTURED_COLOUR, rel=0.03)
+    sand.dig(np.array([0.1, 0.2, 1.1]))
+    assert len(sand.mesh().triangles) == len(mesh.triangles)
+
+
+def test_opposite_sides_of_the_texture_of_sand_fit_together() -> None:
+    pixels = make_sand_texture().pixels[..., 0].astype(float)
+    assert pixels.std() > 10.0
+    seam = np.abs(pixels[0] - pixels[-1]).mean()
+    assert seam < 1.3 * np.abs(np.diff(pixels, axis=0)).mean()
 
 
 def test_no_sand_is_taken_below_the_bottom() -> None:

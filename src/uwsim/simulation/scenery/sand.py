@@ -7,19 +7,22 @@ bottom within the length 3 b h; at the distance d from the box its height is
 .. math:: b h \Bigl(1 - \bigl(\frac{d}{3 b h}\bigr)^2\Bigr)
 
 A heap is a grid of columns, each `CELL_WIDTH` wide; the columns of large heaps are wider, at most
-`MAX_COLUMNS` along a side. Cameras and rays see the sand. The positions at which sand is removed
-are rounded to `GRAIN`, so that replays remove the same sand. Not modelled: forces of the sand on
-bodies, slopes that slide, sand that settles elsewhere, particles in the water.
+`MAX_COLUMNS` along a side. In physical water a heap has a texture and ends where no sand is; with
+the fog law, as in UWSim, it is a square of one colour. Cameras and rays see the sand. The positions
+at which sand is removed are rounded to `GRAIN`, so that replays remove the same sand. Not modelled:
+forces of the sand on bodies, slopes that slide, sand that settles elsewhere, particles in the
+water.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...assets.mesh import Mesh, Model
+from ...assets.mesh import Mesh, Model, Texture
+from ...assets.procedural.sand_texture import MEAN, TILE, make_sand_texture
 from ...base.geometry import Array
 from ...base.record import Record
 from ...results.motion import GRAIN, Spot
@@ -32,7 +35,9 @@ MAX_COLUMNS = 256
 TOOL_REACH = 0.1
 """The distance from a tool within which the top of a column loses sand [m]."""
 COLOUR = (0.72, 0.64, 0.46)
-"""The colour of sand, RGB [0..1]."""
+"""The colour of sand without a texture, RGB [0..1]."""
+TEXTURED_COLOUR = (0.69, 0.65, 0.52)
+"""The mean colour of sand with a texture, RGB [0..1]."""
 MAX_OFFSET = 2**31
 """The distance from a heap's lower corner beyond which no sand is removed, in units of `GRAIN`."""
 
@@ -57,9 +62,19 @@ class Heap:
         lower: the lower corner of the object's bounding box in W, (3,) [m].
         upper: the upper corner of the bounding box in W, (3,) [m].
         buried_share: the fraction of the object's height that is under sand [1].
+        texture: the texture of the sand, by whose mean its colour is divided; None: it has one
+            colour.
     """
 
-    def __init__(self, name: str, lower: Array, upper: Array, buried_share: float) -> None:
+    def __init__(
+        self,
+        name: str,
+        lower: Array,
+        upper: Array,
+        buried_share: float,
+        texture: Texture | None = None,
+    ) -> None:
+        self._texture = texture
         self.name = name
         """The name of the object."""
         top = float(upper[2] - lower[2]) * buried_share
@@ -151,12 +166,23 @@ class Heap:
         triangles = np.concatenate(
             [np.stack(corners, axis=2).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))]
         )
-        return Mesh(
+        plain_mesh = Mesh(
             vertices=points.astype(np.float32),
             normals=normals.astype(np.float32),
             uvs=np.zeros((len(points), 2), np.float32),
             triangles=triangles.astype(np.uint32),
             colour=COLOUR,
+        )
+        if self._texture is None:
+            return plain_mesh
+        is_sand = self._initial_heights.reshape(-1)[triangles].max(axis=1) > 0.0
+        red, green, blue = (value * 255.0 / MEAN for value in TEXTURED_COLOUR)
+        return replace(
+            plain_mesh,
+            uvs=(points[:, :2] / TILE).astype(np.float32),
+            triangles=plain_mesh.triangles[is_sand],
+            colour=(red, green, blue),
+            texture=self._texture,
         )
 
     def model(self) -> Model:
@@ -173,11 +199,13 @@ def make_heaps(scene: SceneSpec, corners: Sequence[tuple[int, Array]]) -> tuple[
             the part's bounding box in W, (n, 3) [m].
     """
     heaps = []
+    is_textured = scene.ocean_state.water is not None and any(o.buried > 0 for o in scene.objects)
+    texture = make_sand_texture() if is_textured else None
     for index, spec in enumerate(scene.objects):
         clouds = [points for object_index, points in corners if object_index == index]
         if spec.buried > 0.0 and clouds:
             points = np.concatenate(clouds)
             lower, upper = points.min(axis=0), points.max(axis=0)
             if upper[2] > lower[2]:
-                heaps.append(Heap(spec.name, lower, upper, min(spec.buried, 1.0)))
+                heaps.append(Heap(spec.name, lower, upper, min(spec.buried, 1.0), texture))
     return tuple(heaps)
