@@ -148,7 +148,7 @@ def plate(shade: float) -> Model:
         triangles=np.array([[0, 1, 2], [0, 2, 3]], np.uint32),
         colour=(shade, shade, shade),
     )
-    return Model(name=f"plate {shade:g}", meshes=(mesh,), source="stand-in", sha256=f"{shade}")
+    return Model(name=f"plate {shade:g}", meshes=(mesh,), source="stand-in")
 
 
 def draw_visibility(folder: Path, *, is_quick: bool) -> None:
