@@ -230,7 +230,7 @@ def make_exact_readings(water: WaterNumbers, reference: WaterNumbers) -> list[Re
     same_shape = WaterNumbers(reference.absorption, reference.scattering, water.shape)
     losses = model.compute_losses(water) - model.compute_losses(same_shape)
     return [
-        replace(reading, signal=reading.geometry * math.exp(-loss))
+        replace(reading, signal=math.exp(-loss))
         for reading, loss in zip(readings, losses, strict=True)
     ]
 
