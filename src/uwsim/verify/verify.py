@@ -3,8 +3,9 @@
 First, without a run, every total is computed again from its row, and every file of the result is
 written again from the journals of the trials (``units/``) and compared. Then whole trials are
 replayed from the recorded inputs and compared with the stored trials: every cell, every log sample
-and every image, byte for byte. If they differ, fingerprints (`runs.trial.fingerprint`) identify the
-step at which they diverge, and the body or image that differs first.
+and every image without its record, byte for byte. If they differ, fingerprints
+(`runs.trial.fingerprint`) identify the step at which they diverge, and the body or image that
+differs first.
 """
 
 from __future__ import annotations

@@ -62,14 +62,12 @@ class Ripples:
     @property
     def unresolved_slope(self) -> float:
         """The standard deviation of the slope along one axis by waves that are not drawn [1]."""
-        share = find_slope_share(self.wind_speed, 0.0, MIN_WAVE_LENGTH)
-        return math.sqrt(0.5 * sum(self.slope_variances) * share)
+        return math.sqrt(0.5 * self._compute_variance(0.0, MIN_WAVE_LENGTH))
 
     @property
     def short_wave_variance(self) -> float:
         """The variance of the slope along one axis by the waves that ripples have [1]."""
-        share = find_slope_share(self.wind_speed, 0.0, MAX_WAVE_LENGTH)
-        return 0.5 * sum(self.slope_variances) * share
+        return 0.5 * self._compute_variance(0.0, MAX_WAVE_LENGTH)
 
     def draw(self, seed: int) -> TileWaves:
         """Draw the waves of a tile.
@@ -85,8 +83,8 @@ class Ripples:
         columns, rows, numbers, density = (
             array[is_strong] for array in (columns, rows, numbers, density)
         )
-        share = find_slope_share(self.wind_speed, MIN_WAVE_LENGTH, MAX_WAVE_LENGTH)
-        variances = density * (sum(self.slope_variances) * share / density.sum())
+        total_variance = self._compute_variance(MIN_WAVE_LENGTH, MAX_WAVE_LENGTH)
+        variances = density * (total_variance / density.sum())
         generator = rng.stream(seed, STREAM)
         return TileWaves(
             columns=columns,
@@ -95,6 +93,11 @@ class Ripples:
             angular_frequency=compute_frequencies(numbers),
             phase=2.0 * math.pi * generator.random(len(columns)),
         )
+
+    def _compute_variance(self, min_length: float, max_length: float) -> float:
+        """Compute the variance of both slopes by the waves between two lengths [m]."""
+        share = find_slope_share(self.wind_speed, min_length, max_length)
+        return sum(self.slope_variances) * share
 
     def _compute_directions(self, angles: Array) -> Array:
         """Compute the relative density of directions of travel."""
