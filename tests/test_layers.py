@@ -17,7 +17,19 @@ PAGE = PACKAGE / "viewer" / "page" / "source"
 
 MAX_MODULES = 20
 
-GROUND = {"errors", "version", "base", "acoustics", "optics", "cameras", "rays", "schema"}
+GROUND = {
+    *(
+        "errors",
+        "version",
+        "base",
+        "acoustics",
+        "optics",
+        "cameras",
+        "rays",
+        "schema",
+        "autopilots",
+    ),
+}
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
 PARTS = BASE | {
     "currents",
@@ -40,6 +52,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "base": {"errors", "base"},
     "optics": {"errors", "base", "optics"},
     "cameras": {"errors", "base", "cameras"},
+    "autopilots": {"errors", "base", "autopilots"},
     "network": GROUND | {"network"},
     "messages": BASE,
     "bus": GROUND | {"bus"},
@@ -69,6 +82,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     "runs": TASKS | {"checks", "middleware", "model", "physics", "runs"},
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "calibration": GROUND | {"results", "analysis", "statistics", "calibration"},
+    "logs": BASE | {"middleware", "logs"},
+    "gap": TASKS | ENGINES | {"checks", "runs", "analysis", "logs", "gap"},
+    "identification": TASKS | ENGINES | {"analysis", "logs", "identification"},
+    "scenarios": TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "scenarios"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
@@ -84,6 +101,10 @@ MAY_IMPORT: dict[str, set[str]] = {
             "envelope",
             "verify",
             "middleware",
+            "logs",
+            "gap",
+            "identification",
+            "scenarios",
             "viewer",
             "cli",
         }

@@ -1,0 +1,1 @@
+"""Identification of hydrodynamic coefficients from logs, with intervals and provenance."""

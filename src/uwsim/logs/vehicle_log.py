@@ -1,0 +1,111 @@
+"""The log of one vehicle, as all commands that read logs use it.
+
+Times are seconds from the beginning of the log. Poses are in the frame L of scene files and topics
+(docs/conventions.md). Twists are over ground, in the base frame of the vehicle's URDF.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Literal
+
+from ..base.geometry import Array
+from ..errors import BadSetting
+
+CommandKind = Literal["thrusters", "fins", "wrench", "twist"]
+"""The kind of commands: thrusters [-1 to 1], fins [rad], wrench [N, N m], twist [m/s, rad/s]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MotionSeries:
+    """The measured motion of a vehicle."""
+
+    times: Array
+    """The times, strictly increasing, (n,) [s]."""
+    positions: Array
+    """The positions of the base in L, (n, 3) [m]; NaN where a log has none."""
+    quaternions: Array
+    """The orientations ``localized_from_base``, (n, 4), in the order w, x, y, z."""
+    twists: Array | None = None
+    """The twists over ground in the base frame, (n, 6) [m/s, rad/s]; None: not in the log."""
+
+    def __post_init__(self) -> None:
+        _check_shapes(self.times, positions=(self.positions, 3), quaternions=(self.quaternions, 4))
+        if self.twists is not None:
+            _check_shapes(self.times, twists=(self.twists, 6))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CommandSeries:
+    """The commands that a vehicle received; each holds until the next."""
+
+    kind: CommandKind
+    """The kind of commands."""
+    names: tuple[str, ...]
+    """The names of the columns: thrusters or fins of the vehicle, or axes."""
+    times: Array
+    """The times at which the commands take effect, (n,) [s]."""
+    values: Array
+    """The commands, (n, columns)."""
+
+    def __post_init__(self) -> None:
+        _check_shapes(self.times, values=(self.values, len(self.names)))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SensorSeries:
+    """The readings of a sensor."""
+
+    kind: str
+    """The kind of the sensor: ``imu``, ``dvl``, ``pressure``, ``gps``, ``range``, ``battery``."""
+    names: tuple[str, ...]
+    """The names of the columns."""
+    units: tuple[str, ...]
+    """The units of the columns."""
+    times: Array
+    """The times of the readings, (n,) [s]."""
+    values: Array
+    """The readings, (n, columns)."""
+
+    def __post_init__(self) -> None:
+        _check_shapes(self.times, values=(self.values, len(self.names)))
+        if len(self.units) != len(self.names):
+            raise BadSetting(f"A sensor has {len(self.names)} columns, but {len(self.units)} units.")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class VehicleLog:
+    """The log of one vehicle."""
+
+    path: str
+    """The file from which the log was read."""
+    format: str
+    """The format of the file: ``mcap``, ``bag``, ``bin``, ``tlog``, ``csv``."""
+    sha256: str
+    """The hash of the file."""
+    vehicle: str
+    """The name of the vehicle in the log."""
+    motion: MotionSeries | None = None
+    """The measured motion; None: the log has none."""
+    commands: tuple[CommandSeries, ...] = ()
+    """The commands, at most one series of each kind."""
+    sensors: Mapping[str, SensorSeries] = field(default_factory=lambda: MappingProxyType({}))
+    """The readings of sensors, by name."""
+    start: float = 0.0
+    """The time of the beginning of the log since 1970, or on the clock of the log [s]."""
+
+    @property
+    def duration(self) -> float:
+        """The time from the beginning to the last sample [s]."""
+        series = [self.motion, *self.commands, *self.sensors.values()]
+        return max((float(one.times[-1]) for one in series if one and len(one.times)), default=0.0)
+
+
+def _check_shapes(times: Array, **columns: tuple[Array, int]) -> None:
+    for name, (values, width) in columns.items():
+        if times.ndim != 1 or values.shape != (len(times), width):
+            raise BadSetting(
+                f"{name} of a log has the shape {values.shape}; expected ({len(times)}, {width})."
+            )
