@@ -72,7 +72,9 @@ class SensorSeries:
     def __post_init__(self) -> None:
         _check_shapes(self.times, values=(self.values, len(self.names)))
         if len(self.units) != len(self.names):
-            raise BadSetting(f"A sensor has {len(self.names)} columns, but {len(self.units)} units.")
+            raise BadSetting(
+                f"A sensor has {len(self.names)} columns, but {len(self.units)} units."
+            )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -100,7 +102,9 @@ class VehicleLog:
     def duration(self) -> float:
         """The time from the beginning to the last sample [s]."""
         series = [self.motion, *self.commands, *self.sensors.values()]
-        return max((float(one.times[-1]) for one in series if one and len(one.times)), default=0.0)
+        return max(
+            (float(part.times[-1]) for part in series if part and len(part.times)), default=0.0
+        )
 
 
 def _check_shapes(times: Array, **columns: tuple[Array, int]) -> None:
