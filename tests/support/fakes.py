@@ -231,6 +231,10 @@ class FakeWorld:
     def datagrams(self, port: int) -> None:
         return None
 
+    @property
+    def connections(self) -> None:
+        return None
+
     def set_fog(self, density: float) -> None:
         self.fog = density
 

@@ -16,6 +16,7 @@ from ..network import Channel, Network
 from ..scene.spec import SceneSpec
 from ..topics.interface import Interface, SimulatedInterface
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
+from .connections import OpenConnections
 from .datagrams import Datagrams
 from .forces import bind_forces
 from .markers import SERVICE, Markers
@@ -39,7 +40,8 @@ class LiveScene:
 
     Args:
         model: the compiled scene.
-        udp_address: the address of this computer at which ``<fdm>`` receives datagrams; None: none.
+        udp_address: the address of this computer at which ``<fdm>`` receives datagrams, and with
+            which devices open connections to programs outside; None: none.
         stream_prefix: the prefix of the names of random streams.
         runs_code: True to run the Python code to which the scene refers; False: a current that
             requires such code is zero.
@@ -87,7 +89,8 @@ class LiveScene:
         self.network = _make_network(scene)
         """The packets between communication devices."""
         self._datagrams = Datagrams(udp_address)
-        world = DeviceView(scene, self.network, self._datagrams)
+        self._connections = None if udp_address is None else OpenConnections()
+        world = DeviceView(scene, self.network, self._datagrams, self._connections)
         self.devices, patterns = bind_devices(scene, self.sensors, world)
         """The devices, which act in each step, in the file's order."""
         self.files = {**model.hydrodynamics_files, **self.water.files, **patterns}
@@ -132,6 +135,8 @@ class LiveScene:
         """Release the graphics context and close the ports."""
         self.scenery.close()
         self._datagrams.close()
+        if self._connections is not None:
+            self._connections.close()
 
 
 def _bind_interfaces(spec: SceneSpec, world: TopicView) -> Iterator[Interface]:

@@ -7,6 +7,7 @@ arrays are copies.
 
 from __future__ import annotations
 
+from .connections import ByteStream, Connections
 from .parts import (
     GRAVITY,
     TIMESTEP,
@@ -35,8 +36,10 @@ __all__ = [
     "Body",
     "BodyMotion",
     "Box",
+    "ByteStream",
     "Camera",
     "CompiledVehicle",
+    "Connections",
     "Contact",
     "DeviceWorld",
     "Flow",

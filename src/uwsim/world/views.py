@@ -18,6 +18,7 @@ from ..bus import Bus
 from ..cameras.exposure import Exposure, PlainExposure
 from ..network import Network
 from ..optics import Medium
+from .connections import Connections
 from .parts import (
     Actuators,
     Attachment,
@@ -197,6 +198,10 @@ class DeviceWorld(TimedWorld, Protocol):
 
         None if the simulation receives none.
         """
+
+    @property
+    def connections(self) -> Connections | None:
+        """The connections to programs outside; None if the simulation has none."""
 
     def create_timer(
         self,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...base.geodesy import Geodetic
 from ...base.geometry import Array
 from ...network import Network
+from ..connections import OpenConnections
 from ..datagrams import Datagrams
 from ..physical_scene import PhysicalScene
 from .scene_view import SceneView
@@ -13,7 +14,13 @@ from .scene_view import SceneView
 class DeviceView(SceneView):
     """The view of a running scene for its devices (`uwsim.world.DeviceWorld`)."""
 
-    def __init__(self, scene: PhysicalScene, network: Network, datagrams: Datagrams) -> None:
+    def __init__(
+        self,
+        scene: PhysicalScene,
+        network: Network,
+        datagrams: Datagrams,
+        connections: OpenConnections | None = None,
+    ) -> None:
         super().__init__(scene)
         self._scenery = scene.scenery
         self._objects, self._grips = scene.model.scene.objects, scene.engine.grips
@@ -28,6 +35,8 @@ class DeviceView(SceneView):
         self.network = network
         """The packets between communication devices."""
         self.datagrams = datagrams.open
+        self.connections = connections
+        """The connections to programs outside; None if the simulation has none."""
         self.create_timer = scene.schedule.create_timer
         self.actuators = scene.vehicles.actuators
         self.stream = scene.stream

@@ -1,0 +1,69 @@
+"""Streams of bytes as UDP datagrams."""
+
+from __future__ import annotations
+
+import select
+import socket
+
+MAX_BYTES = 65536
+"""The greatest size of a datagram [bytes]."""
+
+
+class UdpStream:
+    """A UDP port that does not block.
+
+    Args:
+        host: the address of the peer, or of this computer.
+        port: the UDP port.
+        is_bound: True to receive at the address and to answer the last sender; False to send to the
+            address, and to receive from it alone.
+    """
+
+    def __init__(self, host: str, port: int, *, is_bound: bool) -> None:
+        family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_DGRAM)[0]
+        self._socket = socket.socket(family, socket.SOCK_DGRAM)
+        self._peer = None if is_bound else address
+        try:
+            self._socket.setblocking(False)
+            if is_bound:
+                self._socket.bind(address)
+            else:
+                self._socket.connect(address)
+        except OSError:
+            self._socket.close()
+            raise
+        self._is_bound = is_bound
+
+    @property
+    def is_connected(self) -> bool:
+        """True if the address of the peer is known."""
+        return self._peer is not None
+
+    def receive(self, timeout: float = 0.0) -> bytes:
+        """Return the next datagram; wait for it for ``timeout`` [s] at most; empty if none."""
+        try:
+            if timeout > 0.0:
+                select.select([self._socket], [], [], timeout)
+            data, sender = self._socket.recvfrom(MAX_BYTES)
+        except (OSError, ValueError):  # nothing has arrived, or the peer's port is not open
+            return b""
+        if self._is_bound:
+            self._peer = sender
+        return data
+
+    def send(self, data: bytes) -> bool:
+        """Send a datagram; return False if no peer is known, or the system does not send it."""
+        if self._peer is None:
+            return False
+        try:
+            if self._is_bound:
+                self._socket.sendto(data, self._peer)
+            else:
+                self._socket.send(data)
+        except OSError:
+            return False
+        return True
+
+    def close(self) -> None:
+        """Close the port."""
+        self._socket.close()

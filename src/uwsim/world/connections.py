@@ -1,0 +1,42 @@
+"""Protocols of streams of bytes to programs and instruments outside of the simulation."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+
+class ByteStream(Protocol):
+    """A stream of bytes to one peer outside; its methods raise no error if the peer is absent."""
+
+    @property
+    def is_connected(self) -> bool:
+        """True if there is a peer to which bytes can be sent."""
+
+    def receive(self, timeout: float = 0.0) -> bytes:
+        """Return bytes that have arrived, 64 KiB at most; empty if there are none.
+
+        Args:
+            timeout: the wall time for which to wait for the first byte [s].
+        """
+
+    def send(self, data: bytes) -> bool:
+        """Send all of ``data``, or nothing; return False if there is no peer or it does not read.
+
+        Datagrams contain exactly the bytes of one call.
+        """
+
+
+class Connections(Protocol):
+    """The connections of a simulation to programs outside, which it closes at its end."""
+
+    def open(self, address: str) -> ByteStream:
+        """Open a stream at an address, and return it at once; it connects when it can.
+
+        Args:
+            address: ``tcp:HOST:PORT`` connects to a server, and again if it is lost;
+                ``tcpin:HOST:PORT`` waits for one client; ``udpout:HOST:PORT`` sends datagrams to
+                an address; ``udpin:HOST:PORT`` receives them, and answers the last sender.
+
+        Raises:
+            UwsimError: the address is invalid, or its port is not free.
+        """
