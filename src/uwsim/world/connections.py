@@ -35,7 +35,9 @@ class Connections(Protocol):
         Args:
             address: ``tcp:HOST:PORT`` connects to a server, and again if it is lost;
                 ``tcpin:HOST:PORT`` waits for one client; ``udpout:HOST:PORT`` sends datagrams to
-                an address; ``udpin:HOST:PORT`` receives them, and answers the last sender.
+                an address; ``udpin:HOST:PORT`` receives them, and answers the last sender;
+                ``serial:PATH:BIT_RATE`` is a serial line; ``pty`` or ``pty:LINK`` is a
+                pseudo-terminal, with a symbolic link to it.
 
         Raises:
             UwsimError: the address is invalid, or its port is not free.

@@ -6,11 +6,15 @@ from typing import Protocol
 
 from ...errors import UwsimError, did_you_mean
 from ...world import ByteStream
+from .serial_streams import PseudoTerminal, SerialStream
 from .tcp_streams import TcpClient, TcpServer
 from .udp_streams import UdpStream
 
-KINDS = ("tcp", "tcpin", "udpin", "udpout")
+KINDS = ("tcp", "tcpin", "udpin", "udpout", "serial", "pty")
 """The kinds of addresses (`uwsim.world.Connections.open`)."""
+
+MAX_BIT_RATE = 10_000_000
+"""The greatest bit rate of a serial line [bit/s]."""
 
 
 class _ClosableStream(ByteStream, Protocol):
@@ -22,16 +26,20 @@ class OpenConnections:
 
     def __init__(self) -> None:
         self._streams: list[_ClosableStream] = []
+        self.terminals: list[str] = []
+        """The paths of the pseudo-terminals, in the order in which they were opened."""
 
     def open(self, address: str) -> ByteStream:
         """Open a stream; raise UwsimError if the address is invalid or its port is not free."""
-        kind, host, port = parse_address(address)
+        kind, host, number = parse_address(address)
         try:
-            stream = _open_stream(kind, host, port)
+            stream = _open_stream(kind, host, number)
         except OSError as error:
             reason = error.strerror or error
             raise UwsimError(f"{address} cannot be opened: {reason}.") from None
         self._streams.append(stream)
+        if isinstance(stream, PseudoTerminal):
+            self.terminals.append(stream.path)
         return stream
 
     def close(self) -> None:
@@ -41,23 +49,36 @@ class OpenConnections:
         self._streams.clear()
 
 
-def _open_stream(kind: str, host: str, port: int) -> _ClosableStream:
+def _open_stream(kind: str, host: str, number: int) -> _ClosableStream:
+    if kind == "serial":
+        return SerialStream(host, number)
+    if kind == "pty":
+        return PseudoTerminal(host)
     if kind == "tcp":
-        return TcpClient(host, port)
+        return TcpClient(host, number)
     if kind == "tcpin":
-        return TcpServer(host, port)
-    return UdpStream(host, port, is_bound=kind == "udpin")
+        return TcpServer(host, number)
+    return UdpStream(host, number, is_bound=kind == "udpin")
 
 
 def parse_address(address: str) -> tuple[str, str, int]:
-    """Return the kind, the host and the port of an address; raise UwsimError if it is invalid."""
+    """Return the parts of an address; raise UwsimError if it is invalid.
+
+    Returns:
+        The kind, the host or path, and the port or the bit rate [bit/s].
+    """
     kind, _, rest = address.partition(":")
-    host, _, port = rest.rpartition(":")
     if kind not in KINDS:
         raise UwsimError(
             f"{address[:80]!r} is not an address: its kind is {kind[:40]!r}; expected "
             f"{', '.join(KINDS)}.{did_you_mean(kind, KINDS)}"
         )
-    if not host or not (port.isascii() and port.isdigit()) or not 0 < int(port[:9]) < 65536:
-        raise UwsimError(f"{address[:80]!r} is not an address; expected {kind}:HOST:PORT.")
-    return kind, host.strip("[]"), int(port)
+    if kind == "pty":
+        return kind, rest, 0
+    host, _, number = rest.rpartition(":")
+    greatest = MAX_BIT_RATE if kind == "serial" else 65535
+    is_number = number.isascii() and number.isdigit()
+    if not host or not is_number or not 0 < int(number[:9]) <= greatest:
+        form = "serial:PATH:BIT_RATE" if kind == "serial" else f"{kind}:HOST:PORT"
+        raise UwsimError(f"{address[:80]!r} is not an address; expected {form}.")
+    return kind, host.strip("[]"), int(number)
