@@ -89,9 +89,8 @@ class LiveScene:
         self.network = _make_network(scene)
         """The packets between communication devices."""
         self._datagrams = Datagrams(udp_address)
-        self.connections = None if udp_address is None else OpenConnections()
-        """The connections to programs outside; None if there are none."""
-        world = DeviceView(scene, self.network, self._datagrams, self.connections)
+        self._connections = None if udp_address is None else OpenConnections()
+        world = DeviceView(scene, self.network, self._datagrams, self._connections)
         self.devices, patterns = bind_devices(scene, self.sensors, world)
         """The devices, which act in each step, in the file's order."""
         self.files = {**model.hydrodynamics_files, **self.water.files, **patterns}
@@ -136,8 +135,8 @@ class LiveScene:
         """Release the graphics context and close the ports."""
         self.scenery.close()
         self._datagrams.close()
-        if self.connections is not None:
-            self.connections.close()
+        if self._connections is not None:
+            self._connections.close()
 
 
 def _bind_interfaces(spec: SceneSpec, world: TopicView) -> Iterator[Interface]:

@@ -7,7 +7,7 @@ arrays are copies.
 
 from __future__ import annotations
 
-from .connections import ByteStream, Connections
+from .connections import ByteStream, Connections, TerminalStream
 from .parts import (
     GRAVITY,
     TIMESTEP,
@@ -51,6 +51,7 @@ __all__ = [
     "SensorWorld",
     "Stage",
     "StageWater",
+    "TerminalStream",
     "TimedWorld",
     "WaterSurface",
     "World",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 
 class ByteStream(Protocol):
@@ -24,6 +24,15 @@ class ByteStream(Protocol):
 
         Datagrams contain exactly the bytes of one call.
         """
+
+
+@runtime_checkable
+class TerminalStream(ByteStream, Protocol):
+    """A stream of a pseudo-terminal, whose path the other side has to know."""
+
+    @property
+    def path(self) -> str:
+        """The path of the terminal."""
 
 
 class Connections(Protocol):

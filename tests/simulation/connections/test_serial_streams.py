@@ -11,6 +11,7 @@ from uwsim.errors import MissingExtra, UwsimError
 from uwsim.simulation.connections import OpenConnections
 from uwsim.simulation.connections.connections import parse_address
 from uwsim.simulation.connections.serial_streams import PseudoTerminal
+from uwsim.world import TerminalStream
 
 
 def test_a_terminal_carries_all_bytes_unchanged_in_both_directions(tmp_path: Path) -> None:
@@ -47,7 +48,8 @@ def test_a_serial_line_is_opened_with_pyserial() -> None:
     pytest.importorskip("serial", reason="needs pyserial")
     connections = OpenConnections()
     terminal = connections.open("pty")
-    line = connections.open(f"serial:{connections.terminals[0]}:115200")
+    assert isinstance(terminal, TerminalStream)
+    line = connections.open(f"serial:{terminal.path}:115200")
     assert terminal.send(b"$GPZDA\r\n")
     assert line.receive(1.0) == b"$GPZDA\r\n"
     assert line.send(b"answer")

@@ -26,8 +26,6 @@ class OpenConnections:
 
     def __init__(self) -> None:
         self._streams: list[_ClosableStream] = []
-        self.terminals: list[str] = []
-        """The paths of the pseudo-terminals, in the order in which they were opened."""
 
     def open(self, address: str) -> ByteStream:
         """Open a stream; raise UwsimError if the address is invalid or its port is not free."""
@@ -38,8 +36,6 @@ class OpenConnections:
             reason = error.strerror or error
             raise UwsimError(f"{address} cannot be opened: {reason}.") from None
         self._streams.append(stream)
-        if isinstance(stream, PseudoTerminal):
-            self.terminals.append(stream.path)
         return stream
 
     def close(self) -> None:
@@ -76,9 +72,9 @@ def parse_address(address: str) -> tuple[str, str, int]:
     if kind == "pty":
         return kind, rest, 0
     host, _, number = rest.rpartition(":")
-    greatest = MAX_BIT_RATE if kind == "serial" else 65535
+    max_number = MAX_BIT_RATE if kind == "serial" else 65535
     is_number = number.isascii() and number.isdigit()
-    if not host or not is_number or not 0 < int(number[:9]) <= greatest:
+    if not host or not is_number or not 0 < int(number[:9]) <= max_number:
         form = "serial:PATH:BIT_RATE" if kind == "serial" else f"{kind}:HOST:PORT"
         raise UwsimError(f"{address[:80]!r} is not an address; expected {form}.")
     return kind, host.strip("[]"), int(number)

@@ -38,7 +38,7 @@ class SerialStream:
 
     @property
     def is_connected(self) -> bool:
-        """True: a serial line does not show whether a device is at its other end."""
+        """True if the line is open; it does not show whether a device is at its other end."""
         return True
 
     def receive(self, timeout: float = 0.0) -> bytes:
@@ -95,7 +95,7 @@ class PseudoTerminal:
 
     @property
     def is_connected(self) -> bool:
-        """True: a serial line does not show whether a device is at its other end."""
+        """True if the line is open; it does not show whether a device is at its other end."""
         return True
 
     def receive(self, timeout: float = 0.0) -> bytes:
