@@ -1,7 +1,28 @@
-"""Logs of real and simulated vehicles: motion, commands and sensors on one time base."""
+"""Logs of real and simulated vehicles: motion, commands and sensors on one time base.
+
+.. code-block:: python
+
+    log = read_log("dive.mcap", vehicle="bluerov2")
+    print(log.duration, log.motion.positions[0], log.remarks)
+"""
 
 from __future__ import annotations
 
+from .csv_log import LogError, write_csv_log
+from .mapping import LogMapping, MappingError, read_mapping
+from .read_log import SUFFIXES, read_log
 from .vehicle_log import CommandSeries, MotionSeries, SensorSeries, VehicleLog
 
-__all__ = ["CommandSeries", "MotionSeries", "SensorSeries", "VehicleLog"]
+__all__ = [
+    "SUFFIXES",
+    "CommandSeries",
+    "LogError",
+    "LogMapping",
+    "MappingError",
+    "MotionSeries",
+    "SensorSeries",
+    "VehicleLog",
+    "read_log",
+    "read_mapping",
+    "write_csv_log",
+]

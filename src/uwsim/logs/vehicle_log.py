@@ -30,6 +30,8 @@ class MotionSeries:
     """The orientations ``localized_from_base``, (n, 4), in the order w, x, y, z."""
     twists: Array | None = None
     """The twists over ground in the base frame, (n, 6) [m/s, rad/s]; None: not in the log."""
+    twist_source: Literal["log", "smoothed"] = "log"
+    """The source of the twists: the log, or the derivative of smoothed poses (`smoothing`)."""
 
     def __post_init__(self) -> None:
         _check_shapes(self.times, positions=(self.positions, 3), quaternions=(self.quaternions, 4))
@@ -97,6 +99,8 @@ class VehicleLog:
     """The readings of sensors, by name."""
     start: float = 0.0
     """The time of the beginning of the log since 1970, or on the clock of the log [s]."""
+    remarks: tuple[str, ...] = ()
+    """The defects that the reader found and repaired, one sentence each."""
 
     @property
     def duration(self) -> float:

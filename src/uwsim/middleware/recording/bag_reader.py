@@ -6,7 +6,7 @@ times; in a recording with times of the wall clock, times and stamps count from 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
@@ -66,16 +66,20 @@ class BagReader:
         last_time = self._reader.end_time - 1  # end_time is 1 ns after the last message
         self.duration = (last_time - self._origin) / NANOSECONDS
         """The time of the last message [s]."""
+        self.start = self._origin / NANOSECONDS
+        """The time 0 of a recording with times of the wall clock, since 1970; else 0 [s]."""
 
-    def messages(self) -> Iterator[tuple[float, str, Any]]:
+    def messages(self, topics: Collection[str] | None = None) -> Iterator[tuple[float, str, Any]]:
         """Yield the time [s], topic and content of all messages, in the order of their times.
 
         Messages with equal times are in the order in which they were recorded; in a bag of ROS 1,
         they are topic by topic.
+
+        Args:
+            topics: the topics to read, with a leading slash; None: all.
         """
-        connections = [
-            c for c in self._reader.connections if f"/{c.topic.strip('/')}" in self.topics
-        ]
+        names = self.topics if topics is None else topics
+        connections = [c for c in self._reader.connections if f"/{c.topic.strip('/')}" in names]
         records = self._reader.messages(connections)
         while True:
             try:
