@@ -11,7 +11,7 @@ from ...base.geometry import Array, rotation_from_quaternion
 from ...base.numerics.linear import product, rotate
 from . import columns as c
 from .hydrodynamics import NoWater
-from .kernel.free_step import POSE, RIGID, FreeVehicle
+from .kernel.free_step import POSE, RIGID_BODY, FreeVehicle
 
 
 def free_vehicle(model: mujoco.MjModel, root: int) -> FreeVehicle:
@@ -47,7 +47,7 @@ def free_vehicle(model: mujoco.MjModel, root: int) -> FreeVehicle:
         for i in actuators
     ]
     return FreeVehicle(
-        rigid=_combine_rigid_bodies(model, poses),
+        rigid_body=_combine_rigid_bodies(model, poses),
         bodies=np.array(model.body_user[bodies]).reshape(-1, c.BODY_COLUMNS),
         poses=_to_rows([poses[i] for i in bodies]),
         actuators=np.array(model.actuator_user[actuators]).reshape(-1, c.ACTUATOR_COLUMNS),
@@ -100,10 +100,10 @@ def _combine_rigid_bodies(model: mujoco.MjModel, poses: dict[int, _Pose]) -> Arr
         inertia += model.body_mass[i] * _spread(centre)
     centre = moment / mass
     inertia -= mass * _spread(centre)
-    rigid = np.zeros(RIGID)
-    rigid[0], rigid[1:4] = mass, centre
-    rigid[4:] = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-    return rigid
+    rigid_body = np.zeros(RIGID_BODY)
+    rigid_body[0], rigid_body[1:4] = mass, centre
+    rigid_body[4:] = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    return rigid_body
 
 
 def _spread(point: Array) -> Array:

@@ -34,6 +34,7 @@ from .equations import (
     drag_speeds,
     full_force,
     move_wrench,
+    read_six,
     reference_point,
     relative_twist,
     subtract,
@@ -62,9 +63,9 @@ from .thrusters import inflow_loss, lag_share, static_thrust
 POSITION, QUATERNION, VELOCITY, ANGULAR_VELOCITY, ACTUATORS = 0, 3, 7, 10, 13
 """The columns of a row of the state: the position of the base in W [m], its attitude (wxyz), its
 velocity in W [m/s], its angular velocity in base axes [rad/s], then the state of each actuator: the
-command that its rotor has reached [1], or the angle of a fin [rad]."""
-RIGID = 10
-"""The length of a row of `FreeVehicle.rigid`."""
+command that its rotor has actuator_state [1], or the angle of a fin [rad]."""
+RIGID_BODY = 10
+"""The length of a row of `FreeVehicle.rigid_body`."""
 POSE = 12
 """The length of a pose: the position [m], and the rotation (3, 3) by rows."""
 
@@ -84,9 +85,9 @@ WORK = _B + NUMBERS
 class FreeVehicle(NamedTuple):
     """The numbers of a vehicle that a step reads."""
 
-    rigid: Floats
+    rigid_body: Floats
     """The mass [kg], the centre of mass in the base (3) [m], and the moments of inertia about it in
-    base axes (xx yy zz xy xz yz) [kg m2], (`RIGID`,)."""
+    base axes (xx yy zz xy xz yz) [kg m2], (`RIGID_BODY`,)."""
     bodies: Floats
     """The rows of the links in the water (`columns`), (n, 160)."""
     poses: Floats
@@ -127,14 +128,14 @@ def step_one(
         work[i] = 0.0
     axes, com, twist = work[_AXES:_PART_AXES], work[_COM:_TWIST], work[_TWIST:_CRB]
     _write_axes(q, axes)
-    lever = _place_body(vehicle.rigid, q, v, axes, com, twist)
+    lever = _place_body(vehicle.rigid_body, q, v, axes, com, twist)
     crb = work[_CRB:_B]
-    _rotate_rigid(vehicle.rigid, axes, crb)
+    _rotate_rigid(vehicle.rigid_body, axes, crb)
     # the spatial acceleration of the free joint without accelerations, as MuJoCo's cdof_dot qvel
-    bx = v[1] * twist[2] - v[2] * twist[1]
-    by = v[2] * twist[0] - v[0] * twist[2]
-    bz = v[0] * twist[1] - v[1] * twist[0]
-    bias = (0.0, 0.0, 0.0, bx, by, bz)
+    bias_x = v[1] * twist[2] - v[2] * twist[1]
+    bias_y = v[2] * twist[0] - v[0] * twist[2]
+    bias_z = v[0] * twist[1] - v[1] * twist[0]
+    bias = (0.0, 0.0, 0.0, bias_x, bias_y, bias_z)
     for part in range(len(vehicle.bodies)):
         _place_part(vehicle.poses[part], q, axes, work)
         _add_part(vehicle, part, bias, water, h, work)
@@ -143,14 +144,14 @@ def step_one(
         _add_actuator(vehicle, i, state, commands[i], water, h, work)
     fill_inertia(crb, work, f.FF, _DRAG, b)
     fill_motion(twist, water, lever, work, 0, b)
-    known = (b[RATE + 3], b[RATE + 4], b[RATE + 5])  # the rate without accelerations
+    known_rate = (b[RATE + 3], b[RATE + 4], b[RATE + 5])  # the rate without accelerations
     gravity = (vehicle.gravity[0], vehicle.gravity[1], vehicle.gravity[2])
     turn = (twist[0], twist[1], twist[2], twist[3], twist[4], twist[5])
     add_rigid_body(crb, turn, bias, gravity, (water[0], water[1], water[2]), b)
     solve_rate(b, h)
     convert_rate(lever, h, b)
     for i in range(3):
-        b[RATE + 3 + i] -= known[i]
+        b[RATE + 3 + i] -= known_rate[i]
     _apply_rate(lever, axes, h, b, v)
     rotate_velocity(v, q, water, -0.5 * h, -h)
     for i in range(3):
@@ -187,10 +188,10 @@ def _write_axes(q: Floats, axes: Floats) -> None:
 
 @njit
 def _place_body(
-    rigid: Floats, q: Floats, v: Floats, axes: Floats, com: Floats, twist: Floats
+    rigid_body: Floats, q: Floats, v: Floats, axes: Floats, com: Floats, twist: Floats
 ) -> Three:
     """Compute the centre of mass, the spatial velocity about it, the inertia, and the lever."""
-    x, y, z = to_world(axes, rigid[1], rigid[2], rigid[3])
+    x, y, z = to_world(axes, rigid_body[1], rigid_body[2], rigid_body[3])
     com[0], com[1], com[2] = q[0] + x, q[1] + y, q[2] + z
     wx, wy, wz = to_world(axes, v[3], v[4], v[5])
     twist[0], twist[1], twist[2] = wx, wy, wz
@@ -216,12 +217,19 @@ def _place_part(pose: Floats, q: Floats, axes: Floats, work: Floats) -> None:
 
 
 @njit
-def _rotate_rigid(rigid: Floats, axes: Floats, crb: Floats) -> None:
+def _rotate_rigid(rigid_body: Floats, axes: Floats, crb: Floats) -> None:
     """Write the row of the rigid body in world axes about its centre of mass."""
-    xx, yy, zz, xy, xz, yz = rigid[4], rigid[5], rigid[6], rigid[7], rigid[8], rigid[9]
+    xx, yy, zz, xy, xz, yz = (
+        rigid_body[4],
+        rigid_body[5],
+        rigid_body[6],
+        rigid_body[7],
+        rigid_body[8],
+        rigid_body[9],
+    )
     for i in range(3):
         crb[6 + i] = 0.0
-    crb[9] = rigid[0]
+    crb[9] = rigid_body[0]
     for k, i, j in ((0, 0, 0), (1, 1, 1), (2, 2, 2), (3, 0, 1), (4, 0, 2), (5, 1, 2)):
         a, b, d = axes[3 * i], axes[3 * i + 1], axes[3 * i + 2]
         x, y, z = axes[3 * j], axes[3 * j + 1], axes[3 * j + 2]
@@ -282,7 +290,7 @@ def _add_actuator(
     work: Floats,
 ) -> None:
     """Add the force of a thruster or a fin in the middle of the step, as `kernel` does."""
-    table, reached = vehicle.actuators[i], state[ACTUATORS + i]
+    table, actuator_state = vehicle.actuators[i], state[ACTUATORS + i]
     axes, com = work[_PART_AXES:_PART_POSITION], work[_COM:_TWIST]
     lever = (
         work[_PART_POSITION] - com[0],
@@ -293,7 +301,7 @@ def _add_actuator(
     if table[c.ROLE] == c.PROPELLER:
         command = min(max(command, vehicle.limits[i, 0]), vehicle.limits[i, 1])
         thrust = static_thrust(
-            table, reached + lag_share(table[c.LAG], 0.5 * h) * (command - reached)
+            table, actuator_state + lag_share(table[c.LAG], 0.5 * h) * (command - actuator_state)
         )
         if table[c.N_ADVANCE] > 0.0:
             speed = relative_twist(axes, lever, work[_TWIST:_CRB], water)[0]
@@ -301,7 +309,7 @@ def _add_actuator(
         force, torque = (thrust, 0.0, 0.0), table[c.TORQUE]
     else:
         flow = relative_twist(axes, lever, work[_TWIST:_CRB], water)
-        angle = reached + 0.5 * h * servo_speed(table, reached, command, h, False)
+        angle = actuator_state + 0.5 * h * servo_speed(table, actuator_state, command, h, False)
         x, y = foil_force(table, angle, flow[0], flow[1], vehicle.density)
         force = (x, y, 0.0)
     fx, fy, fz = to_world(axes, force[0], force[1], force[2])
