@@ -219,14 +219,7 @@ def _place_part(pose: Floats, q: Floats, axes: Floats, work: Floats) -> None:
 @njit
 def _rotate_rigid(rigid_body: Floats, axes: Floats, crb: Floats) -> None:
     """Write the row of the rigid body in world axes about its centre of mass."""
-    xx, yy, zz, xy, xz, yz = (
-        rigid_body[4],
-        rigid_body[5],
-        rigid_body[6],
-        rigid_body[7],
-        rigid_body[8],
-        rigid_body[9],
-    )
+    xx, yy, zz, xy, xz, yz = read_six(rigid_body, 4)
     for i in range(3):
         crb[6 + i] = 0.0
     crb[9] = rigid_body[0]
