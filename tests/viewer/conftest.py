@@ -15,6 +15,7 @@ CHROMIUM = "/usr/bin/chromium"
 ARGUMENTS = [
     *("--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"),
     "--disable-gpu-watchdog",  # it ends what draws slowly, as software does on a busy computer
+    "--disable-domain-blocking-for-3d-apis",  # after a crash of the graphics process, draw again
 ]
 WEBGL = "document.createElement('canvas').getContext('webgl2') !== null"
 LIMIT = 120_000

@@ -117,6 +117,29 @@ def test_a_dimmed_lamp_looks_in_the_page_as_in_a_camera(
     page.context.close()
 
 
+def test_a_page_begins_again_after_its_graphics_context_was_lost(
+    browser: Any, server: LiveServer
+) -> None:
+    page = opened(browser, server, MAPPING, 500)
+    message = "document.getElementById('message').textContent"
+    for restore in ("setTimeout(() => lost.restoreContext(), 0)", "0", "0"):
+        page.evaluate(LOSE)
+        page.wait_for_function(f"{message}.includes('process has ended')")
+        page.evaluate(restore)
+        page.wait_for_function("window.lost === undefined && window.uwsim?.page.drawnKey")
+    page.evaluate(LOSE)  # a fourth time within a minute
+    page.wait_for_function(f"{message}.includes('ends again and again')")
+    page.context.close()
+
+
+LOSE = """() => {
+    const context = document.getElementById('image').getContext('webgl2');
+    window.lost = context.getExtension('WEBGL_lose_context');
+    window.lost.loseContext();
+}"""
+"""Loses the context of the page, as the end of the graphics process does."""
+
+
 def test_the_help_names_all_axes_of_a_key(browser: Any, server: LiveServer) -> None:
     page = opened(browser, server, MAPPING, 768)
     rows = page.evaluate(

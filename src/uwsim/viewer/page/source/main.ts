@@ -1,4 +1,5 @@
 // The entry point of the page: it shows the replay that the page contains, or a live view.
+import { reloadAfterContextLoss } from "./drawing/recovery";
 import { connect } from "./live";
 import { decodeBase85, unpack } from "./pack";
 import { Page } from "./page";
@@ -20,9 +21,11 @@ async function begin(): Promise<void> {
   document.documentElement.dataset.theme = isDark ? "dark" : "light";
   const message = element("message");
   message.textContent = "Loading…";
+  const canvas = element<HTMLCanvasElement>("image");
+  reloadAfterContextLoss(canvas, (text) => (message.textContent = text));
+  const gl = graphics(canvas);
   try {
     const data = document.getElementById("pack");
-    const gl = graphics(element<HTMLCanvasElement>("image"));
     const isServerDrawn = gl === null; // without WebGL, the server of a live view draws it
     const connection = data ? null : await connect(isServerDrawn);
     const pack = connection ? connection.pack : await unpack(decodeBase85(data!.textContent ?? ""));
@@ -41,6 +44,7 @@ async function begin(): Promise<void> {
     }
     exposeToConsole(page);
   } catch (error) {
+    if (gl?.isContextLost()) return; // the message says so
     message.textContent = error instanceof Error ? error.message : String(error);
     throw error;
   }
