@@ -89,7 +89,7 @@ class LiveScene:
         self.network = _make_network(scene)
         """The packets between communication devices."""
         self._datagrams = Datagrams(udp_address)
-        self._connections = None if udp_address is None else OpenConnections()
+        self._connections = None if udp_address is None else OpenConnections(udp_address)
         world = DeviceView(scene, self.network, self._datagrams, self._connections)
         self.devices, patterns = bind_devices(scene, self.sensors, world)
         """The devices, which act in each step, in the file's order."""

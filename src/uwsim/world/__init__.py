@@ -7,7 +7,7 @@ arrays are copies.
 
 from __future__ import annotations
 
-from .connections import ByteStream, Connections, TerminalStream
+from .connections import Address, ByteStream, Connections, DatagramPort, TerminalStream
 from .parts import (
     GRAVITY,
     TIMESTEP,
@@ -32,6 +32,7 @@ __all__ = [
     "GRAVITY",
     "TIMESTEP",
     "Actuators",
+    "Address",
     "Attachment",
     "Body",
     "BodyMotion",
@@ -41,6 +42,7 @@ __all__ = [
     "CompiledVehicle",
     "Connections",
     "Contact",
+    "DatagramPort",
     "DeviceWorld",
     "Flow",
     "ForceWorld",

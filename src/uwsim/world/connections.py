@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
+
+Address = tuple[str, int]
+"""The host and the port of a program outside."""
 
 
 class ByteStream(Protocol):
@@ -35,6 +39,30 @@ class TerminalStream(ByteStream, Protocol):
         """The path of the terminal."""
 
 
+class DatagramPort(Protocol):
+    """A UDP port that talks to one peer, whose datagrams others cannot displace."""
+
+    @property
+    def address(self) -> Address:
+        """The host and the port at which datagrams are received."""
+
+    @property
+    def peer(self) -> Address | None:
+        """The host and the port of the peer; None if it is not known."""
+
+    def set_peer(self, peer: Address | None) -> None:
+        """Set the peer; from now on, `receive` returns its datagrams only. None: anyone's."""
+
+    def receive(self, timeout: float = 0.0) -> tuple[bytes, Address] | None:
+        """Return the next datagram and its sender; wait for it for ``timeout`` [s] at most."""
+
+    def receive_others(self, limit: int) -> Sequence[tuple[bytes, Address]]:
+        """Return datagrams of other senders than the peer, ``limit`` at most."""
+
+    def send(self, data: bytes) -> bool:
+        """Send a datagram to the peer; return False if there is none or it was not sent."""
+
+
 class Connections(Protocol):
     """The connections of a simulation to programs outside, which it closes at its end."""
 
@@ -51,3 +79,6 @@ class Connections(Protocol):
         Raises:
             UwsimError: the address is invalid, or its port is not free.
         """
+
+    def open_port(self, port: int) -> DatagramPort:
+        """Open a UDP port of this computer that talks to one peer; raise UwsimError if not free."""

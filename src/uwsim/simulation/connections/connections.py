@@ -6,6 +6,7 @@ from typing import Protocol
 
 from ...errors import UwsimError, did_you_mean
 from ...world import ByteStream
+from .datagram_port import PeerPort
 from .serial_streams import PseudoTerminal, SerialStream
 from .tcp_streams import TcpClient, TcpServer
 from .udp_streams import UdpStream
@@ -22,10 +23,15 @@ class _ClosableStream(ByteStream, Protocol):
 
 
 class OpenConnections:
-    """The open streams of a scene (`uwsim.world.Connections`)."""
+    """The open streams and ports of a scene (`uwsim.world.Connections`).
 
-    def __init__(self) -> None:
-        self._streams: list[_ClosableStream] = []
+    Args:
+        host: the address of this computer at which `open_port` opens ports.
+    """
+
+    def __init__(self, host: str = "127.0.0.1") -> None:
+        self._host = host
+        self._streams: list[_ClosableStream | PeerPort] = []
 
     def open(self, address: str) -> ByteStream:
         """Open a stream; raise UwsimError if the address is invalid or its port is not free."""
@@ -38,8 +44,20 @@ class OpenConnections:
         self._streams.append(stream)
         return stream
 
+    def open_port(self, port: int) -> PeerPort:
+        """Open a UDP port that talks to one peer; raise UwsimError if it is not free."""
+        try:
+            peer_port = PeerPort(self._host, port)
+        except OSError as error:
+            reason = error.strerror or error
+            raise UwsimError(
+                f"UDP port {port} of {self._host} cannot be opened: {reason}."
+            ) from None
+        self._streams.append(peer_port)
+        return peer_port
+
     def close(self) -> None:
-        """Close all streams."""
+        """Close all streams and ports."""
         for stream in self._streams:
             stream.close()
         self._streams.clear()
