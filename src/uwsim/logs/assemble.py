@@ -88,13 +88,13 @@ def _complete_twists(
         return twists, "log"
     estimates = estimate_twists(times, positions, quaternions)
     if twists is None:
-        twists, missing = estimates, "no twists"
+        twists, gap_text = estimates, "no twists"
     else:
         count = int((~np.isfinite(twists)).any(axis=1).sum())
-        missing = f"{count} samples with an incomplete twist"
+        gap_text = f"{count} samples with an incomplete twist"
         twists = np.where(np.isfinite(twists), twists, estimates)
     remarks.append(
-        f"motion: {missing}; estimated from poses by a cubic Savitzky-Golay filter of "
+        f"motion: {gap_text}; estimated from poses by a cubic Savitzky-Golay filter of "
         f"{2.0 * HALF_WIDTH:g} s."
     )
     return twists, "smoothed"

@@ -53,15 +53,15 @@ def derive_mapping(header: Sequence[str]) -> LogMapping:
     names = set(header)
 
     def present(columns: tuple[str, ...]) -> tuple[str, ...]:
-        found = tuple(column if column in names else "" for column in columns)
-        return found if any(found) else ()
+        columns_present = tuple(column if column in names else "" for column in columns)
+        return columns_present if any(columns_present) else ()
 
     commands: dict[CommandKind, CommandMapping] = {}
     for kind in get_args(CommandKind):
         columns = tuple(name for name in header if name.startswith(f"{kind}."))
         if columns:
-            short = tuple(name.split(".", 1)[1] for name in columns)
-            commands[kind] = CommandMapping(columns=columns, names=short)
+            names_of_axes = tuple(name.split(".", 1)[1] for name in columns)
+            commands[kind] = CommandMapping(columns=columns, names=names_of_axes)
     groups: dict[str, list[tuple[str, str, str]]] = {}
     for column in header:
         if match := _SENSOR.fullmatch(column):

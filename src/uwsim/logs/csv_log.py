@@ -208,8 +208,8 @@ class _Builder:
     def __init__(self, table: _Table) -> None:
         self._table, self._mapping = table, table.mapping
         times = table.time_unit.apply(table.columns[self._mapping.time.column])
-        finite = times[np.isfinite(times)]
-        self._start = float(finite[0]) if len(finite) else 0.0
+        finite_times = times[np.isfinite(times)]
+        self._start = float(finite_times[0]) if len(finite_times) else 0.0
         self._times = times - self._start
         self._remarks: list[str] = []
 
@@ -261,12 +261,14 @@ class _Builder:
             quaternions = quaternions_from_rpy(self._stack(motion.rpy, motion.angle_unit))
         else:
             return None
-        none = ("", "", "")
-        parts = [self._stack(motion.position or none, motion.position_unit), quaternions]
+        no_columns = ("", "", "")
+        parts = [self._stack(motion.position or no_columns, motion.position_unit), quaternions]
         has_twists = bool(motion.velocity or motion.angular_velocity)
         if has_twists:
-            parts.append(self._stack(motion.velocity or none, motion.velocity_unit))
-            parts.append(self._stack(motion.angular_velocity or none, motion.angular_velocity_unit))
+            parts.append(self._stack(motion.velocity or no_columns, motion.velocity_unit))
+            parts.append(
+                self._stack(motion.angular_velocity or no_columns, motion.angular_velocity_unit)
+            )
         values = np.hstack(parts)
         # rows of other series have no orientation, which is no defect
         values[~np.isfinite(values[:, 3:7]).all(axis=1)] = np.nan

@@ -53,9 +53,9 @@ def multiply_quaternions(left: Array, right: Array) -> Array:
 def rotate_vectors(quaternions: Array, vectors: Array) -> Array:
     """Return vectors (n, 3) rotated by quaternions wxyz (n, 4): coordinates in the outer frame."""
     w, axis = quaternions[:, :1], quaternions[:, 1:]
-    turned = 2.0 * np.cross(axis, vectors)
-    rotated: Array = vectors + w * turned + np.cross(axis, turned)
-    return rotated
+    half_turn = 2.0 * np.cross(axis, vectors)
+    rotated_vectors: Array = vectors + w * half_turn + np.cross(axis, half_turn)
+    return rotated_vectors
 
 
 def rotate_vectors_back(quaternions: Array, vectors: Array) -> Array:
@@ -80,8 +80,8 @@ def quaternions_from_rpy(angles: Array) -> Array:
 def convert_positions(positions: Array, frame: WorldFrame) -> Array:
     """Return positions or vectors (n, 3) of a log's world frame in L."""
     if frame == "enu":
-        converted: Array = positions[:, [1, 0, 2]] * np.array([1.0, 1.0, -1.0])
-        return converted
+        positions_in_l: Array = positions[:, [1, 0, 2]] * np.array([1.0, 1.0, -1.0])
+        return positions_in_l
     return positions
 
 

@@ -71,8 +71,8 @@ def read_recording_log(
     _check_size(path)
     with BagReader(path) as reader:
         types = {topic: kind.__msgtype__ for topic, kind in reader.topics.items()}  # type: ignore[attr-defined]
-        chosen = _choose_topics(types, mapping, vehicle)
-        collectors = {topic: _Collector(role, topic) for topic, role in chosen.items()}
+        roles = _choose_topics(types, mapping, vehicle)
+        collectors = {topic: _Collector(role, topic) for topic, role in roles.items()}
         for time, topic, message in reader.messages(collectors):
             collectors[topic].add(time, message)
         start = reader.start
@@ -97,16 +97,16 @@ class _Role:
 
 def _choose_topics(types: Mapping[str, str], mapping: LogMapping, vehicle: str) -> dict[str, _Role]:
     """Return the role of each topic that is read."""
-    missing = [topic for topic in mapping.topics.values() if topic not in types]
-    if missing:
+    unknown_topics = [topic for topic in mapping.topics.values() if topic not in types]
+    if unknown_topics:
         raise BadSetting(
             "\n".join(
                 f"{mapping.path}: the recording has no topic {topic!r}.{choices(topic, types)}"
-                for topic in missing
+                for topic in unknown_topics
             )
         )
-    own = [topic for topic in types if vehicle and vehicle in topic.split("/")]
-    candidates = own or list(types)
+    own_topics = [topic for topic in types if vehicle and vehicle in topic.split("/")]
+    candidates = own_topics or list(types)
     roles: dict[str, _Role] = {}
     motion = _choose_one("odometry", candidates, types, mapping, MOTION_READERS)
     if motion is not None:
@@ -115,10 +115,10 @@ def _choose_topics(types: Mapping[str, str], mapping: LogMapping, vehicle: str) 
         topic = _choose_commands(kind, candidates, types, mapping)
         if topic is not None:
             roles[topic] = _Role(kind, COMMAND_READERS[types[topic]])
-    named = {role: topic for role, topic in mapping.topics.items()}
+    topics_by_role = dict(mapping.topics)
     for topic in candidates:
         sensor = SENSOR_READERS.get(types[topic])
-        if sensor is not None and named.get(sensor.kind, topic) == topic:
+        if sensor is not None and topics_by_role.get(sensor.kind, topic) == topic:
             roles.setdefault(topic, _Role("sensor", sensor.read, sensor))
     return roles
 
@@ -130,13 +130,14 @@ def _choose_one(
     mapping: LogMapping,
     readers: Mapping[str, object],
 ) -> str | None:
-    named = mapping.topics.get(role) or mapping.topics.get("pose")
-    if named is not None:
-        if types[named] not in readers:
+    mapped_topic = mapping.topics.get(role) or mapping.topics.get("pose")
+    if mapped_topic is not None:
+        if types[mapped_topic] not in readers:
             raise BadSetting(
-                f"{named} carries {types[named]}; expected {' or '.join(readers)} as {role}."
+                f"{mapped_topic} carries {types[mapped_topic]}; expected "
+                f"{' or '.join(readers)} as {role}."
             )
-        return named
+        return mapped_topic
     for message_type in readers:
         topics = [topic for topic in candidates if types[topic] == message_type]
         if len(topics) > 1:
@@ -152,12 +153,14 @@ def _choose_one(
 def _choose_commands(
     kind: CommandKind, candidates: list[str], types: Mapping[str, str], mapping: LogMapping
 ) -> str | None:
-    named = mapping.topics.get(kind)
-    if named is not None:
-        if types[named] not in COMMAND_TYPES[kind]:
+    mapped_topic = mapping.topics.get(kind)
+    if mapped_topic is not None:
+        if types[mapped_topic] not in COMMAND_TYPES[kind]:
             expected = " or ".join(COMMAND_TYPES[kind])
-            raise BadSetting(f"{named} carries {types[named]}; expected {expected} as {kind}.")
-        return named
+            raise BadSetting(
+                f"{mapped_topic} carries {types[mapped_topic]}; expected {expected} as {kind}."
+            )
+        return mapped_topic
     topics = [topic for topic in candidates if types[topic] in COMMAND_TYPES[kind]]
     if kind == "wrench":  # a force sensor has the same type
         return None
@@ -272,10 +275,10 @@ def _make_commands(kind: Any, times: Any, values: Any, mapping: LogMapping) -> C
     return CommandSeries(kind=command_kind, names=names, times=times, values=values)
 
 
-def _name_sensor(topic: str, kind: str, taken: Mapping[str, object]) -> str:
+def _name_sensor(topic: str, kind: str, names_in_use: Mapping[str, object]) -> str:
     name = topic.rsplit("/", 1)[1] or kind
     number, candidate = 1, name
-    while candidate in taken:
+    while candidate in names_in_use:
         number += 1
         candidate = f"{name}_{number}"
     return candidate

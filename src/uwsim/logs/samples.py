@@ -96,11 +96,11 @@ class Samples:
         is_back = steps < 0.0
         if not is_back.any():
             return times, values
-        worst = int(np.argmin(steps))
-        if steps[worst] < -CLOCK_RESET:
+        index = int(np.argmin(steps))
+        if steps[index] < -CLOCK_RESET:
             raise ClockReset(
-                f"{self.label}: the time goes back from {times[worst]:.6g} s to "
-                f"{times[worst + 1]:.6g} s. Split the log where its clock was set."
+                f"{self.label}: the time goes back from {times[index]:.6g} s to "
+                f"{times[index + 1]:.6g} s. Split the log where its clock was set."
             )
         remarks.append(f"{self.label}: {_count(is_back)} out of order; sorted by time.")
         order = np.argsort(times, kind="stable")
@@ -109,11 +109,11 @@ class Samples:
     def _report_gaps(self, times: Array, remarks: list[str]) -> None:
         gaps = find_gaps(times)
         if gaps:
-            listed = ", ".join(
+            periods = ", ".join(
                 f"{start:.2f} s to {end:.2f} s" for start, end in gaps[:MAX_REPORTED_GAPS]
             )
-            more = f" and {len(gaps) - MAX_REPORTED_GAPS} more" if len(gaps) > 3 else ""
-            remarks.append(f"{self.label}: no sample from {listed}{more}.")
+            remainder = f" and {len(gaps) - MAX_REPORTED_GAPS} more" if len(gaps) > 3 else ""
+            remarks.append(f"{self.label}: no sample from {periods}{remainder}.")
 
 
 def find_gaps(times: Array) -> list[tuple[float, float]]:

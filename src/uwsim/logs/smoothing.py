@@ -21,7 +21,7 @@ from ..base.geometry import Array
 from .frames import multiply_quaternions, rotate_vectors_back
 
 HALF_WIDTH = 0.25
-"""Half the width of the window [s]."""
+"""The half-width of the window [s]."""
 MIN_HALF_SAMPLES = 3
 """The least number of samples on each side of the centre of a window."""
 MAX_GRID = 20_000_000
@@ -86,10 +86,10 @@ def differentiate(values: Array, interval: float, half: int) -> Array:
     s6 = float((squares * squares * squares).sum())
     weights = (s6 * offsets - s4 * offsets * squares) / (s2 * s6 - s4 * s4)
     n = len(values) - 2 * half
-    inner = np.zeros(n)
+    derivatives = np.zeros(n)
     for index, weight in enumerate(weights.tolist()):
-        inner += weight * values[index : index + n]
-    return np.pad(inner, half, mode="edge") / interval
+        derivatives += weight * values[index : index + n]
+    return np.pad(derivatives, half, mode="edge") / interval
 
 
 def _interpolate(times: Array, grid: Array, columns: Array) -> Array:

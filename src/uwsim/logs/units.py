@@ -28,8 +28,8 @@ class Conversion(NamedTuple):
 
     def apply(self, values: Array) -> Array:
         """Return values in SI units."""
-        converted: Array = (values - self.offset) * self.factor
-        return converted
+        values_in_si: Array = (values - self.offset) * self.factor
+        return values_in_si
 
 
 DEGREE = math.pi / 180.0
