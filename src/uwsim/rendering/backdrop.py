@@ -15,6 +15,7 @@ import numpy.typing as npt
 from ..base.geometry import Array
 from ..base.numerics.jit import njit
 from .instance import Indices, Instances
+from .physical.view import View
 
 Colours = npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | npt.NDArray[np.float32]
 """The red, green, blue and alpha values, (h, w, 4)."""
@@ -61,6 +62,39 @@ class Backdrop:
         """Store the colours and the tiles of the backdrop, and the numbers of its batches."""
         self.colours, self.tiles = colours, tiles
         self._members_key = members.tobytes(), self._version
+
+
+class Backdrops:
+    """The backdrops of recent views.
+
+    Args:
+        n_max: the maximum number of backdrops; the oldest are removed first.
+        max_bytes: the size of the largest image that has a backdrop [bytes].
+    """
+
+    def __init__(self, n_max: int, max_bytes: int) -> None:
+        self._n_max, self._max_bytes = n_max, max_bytes
+        self._backdrops: dict[object, Backdrop] = {}  # the newest last
+
+    def find(self, view: View, instances: Instances) -> Backdrop | None:
+        """Return the backdrop of a view; None if the view cannot have one."""
+        intrinsics, bytes_per_pixel = view.intrinsics, 4 if view.colour_format == "uint8" else 8
+        is_small = bytes_per_pixel * intrinsics.width * intrinsics.height <= self._max_bytes
+        has_own_lights = bool(view.lamps) or view.projector is not None
+        if not is_small or view.targets != {"colour"} or has_own_lights or view.is_physical:
+            return None
+        if instances.has_holes:  # the backdrop's depths are drawn without textures
+            return None
+        key = view.pose, intrinsics, view.water, view.light, view.hidden_ids, view.colour_format
+        backdrop = self._backdrops.pop(key, None) or Backdrop()
+        self._backdrops[key] = backdrop
+        if len(self._backdrops) > self._n_max:
+            del self._backdrops[next(iter(self._backdrops))]
+        return backdrop
+
+    def clear(self) -> None:
+        """Remove every backdrop."""
+        self._backdrops.clear()
 
 
 @njit

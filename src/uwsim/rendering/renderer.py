@@ -19,7 +19,7 @@ import numpy.typing as npt
 from ..assets.mesh import Model
 from ..base.geometry import Array, Intrinsics, Pose
 from ..devices.lamp import MAX_LAMPS
-from .backdrop import Backdrop, Colours
+from .backdrop import Backdrop, Backdrops, Colours
 from .caustics.focused_light import FocusedLight
 from .context import create_context
 from .frame import Frame
@@ -79,7 +79,7 @@ class Renderer:
         self._slots = Slots(self._context)
         caster_programs = CasterPrograms(self._context, self._models)
         self._shadow = SunShadow(self._context, caster_programs)
-        self._backdrops: dict[object, Backdrop] = {}  # of recent views, the newest last
+        self._backdrops = Backdrops(N_VIEWS, MAX_STORED_BYTES)
         self._passes = Passes(
             self._context, self._models, self._instances, self._slots, self._shadow
         )
@@ -366,7 +366,7 @@ class Renderer:
         batches = [
             (int(n), bool(s), c) for n, s, c in zip(indices, in_shadow, skips_mipmaps, strict=True)
         ]
-        target, backdrop = self._find_targets(view), self._find_backdrop(view)
+        target, backdrop = self._find_targets(view), self._backdrops.find(view, self._instances)
         backdrop_indices = indices[:0]
         if backdrop is not None:
             backdrop_indices = backdrop.find(self._instances, indices)
@@ -414,22 +414,6 @@ class Renderer:
             if region[2] * region[3] <= MAX_SHADED_SHARE * intrinsics.width * intrinsics.height
             else None
         )
-
-    def _find_backdrop(self, view: View) -> Backdrop | None:
-        """Return the backdrop of a view; None if the view cannot have one."""
-        intrinsics, bytes_per_pixel = view.intrinsics, 4 if view.colour_format == "uint8" else 8
-        is_small = bytes_per_pixel * intrinsics.width * intrinsics.height <= MAX_STORED_BYTES
-        has_own_lights = bool(view.lamps) or view.projector is not None
-        if not is_small or view.targets != {"colour"} or has_own_lights or view.is_physical:
-            return None
-        if self._instances.has_holes:  # the backdrop's depths are drawn without textures
-            return None
-        key = view.pose, intrinsics, view.water, view.light, view.hidden_ids, view.colour_format
-        backdrop = self._backdrops.pop(key, None) or Backdrop()
-        self._backdrops[key] = backdrop
-        if len(self._backdrops) > N_VIEWS:
-            del self._backdrops[next(iter(self._backdrops))]
-        return backdrop
 
     def _update_sun_shadow(
         self,
