@@ -20,6 +20,11 @@ def warn(message: str) -> None:
     print(clean_text(f"uwsim: warning: {message}"), file=sys.stderr)
 
 
+def report(message: str) -> None:
+    """Print what a command waits for, or has connected to."""
+    print(clean_text(f"uwsim: {message}"), file=sys.stderr, flush=True)
+
+
 def print_warnings(diagnostics: Iterable[Diagnostic]) -> None:
     """Print warnings about files; the command continues."""
     for warning in diagnostics:

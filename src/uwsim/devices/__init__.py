@@ -1,6 +1,7 @@
 """Devices of vehicles, such as lamps, batteries, faults, object pickers, modems; one file each."""
 
 from ..schema import NAMESPACE
+from .ardupilot import ArduPilotSpec
 from .battery import BatterySpec
 from .comms.acoustic_comms_device import AcousticCommsDeviceSpec
 from .comms.custom_comms_device import CustomCommsDeviceSpec
@@ -29,6 +30,7 @@ DEVICES: dict[str, type] = {
     f"{{{NAMESPACE}}}fault": FaultSpec,
     f"{{{NAMESPACE}}}battery": BatterySpec,
     f"{{{NAMESPACE}}}motorCurrents": MotorCurrentsSpec,
+    f"{{{NAMESPACE}}}ardupilot": ArduPilotSpec,
 }
 """The spec of each device element of a vehicle; extensions of UWSim's dialect are last."""
 

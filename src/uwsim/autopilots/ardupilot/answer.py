@@ -46,7 +46,7 @@ class Answer:
     specific_force: Vector
     """The acceleration without that of gravity, in FRD, (3,); (0, 0, -9.81) at rest [m/s2]."""
     position: Vector
-    """North, east and down from home, (3,) [m]; or latitude, longitude [deg], altitude [m]."""
+    """The position: north, east, down from home [m]; or latitude, longitude [deg], altitude [m]."""
     quaternion: Vector
     """The rotation from FRD to NED, w x y z, (4,)."""
     velocity: Vector

@@ -35,15 +35,9 @@ class PwmCurve:
             last_x, last_y = x, y
         return last_y
 
-    def reversed(self) -> PwmCurve:
+    def negate(self) -> PwmCurve:
         """Return the curve with commands of the opposite sign."""
         return PwmCurve(tuple((x, -y) for x, y in self.points))
-
-    def table(self) -> tuple[float, ...]:
-        """Return the command at each whole pulse width from 0 to `MAX_PWM`."""
-        end = int(self.points[-1][0]) + 1
-        commands = [self.command(float(pwm)) for pwm in range(min(end, MAX_PWM + 1))]
-        return (*commands, *[self.points[-1][1]] * (MAX_PWM + 1 - len(commands)))
 
 
 def read_pwm_curve(numbers: tuple[float, ...]) -> PwmCurve:

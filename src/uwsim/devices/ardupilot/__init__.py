@@ -1,0 +1,8 @@
+"""The connection of a vehicle to ArduPilot, which steers it through its physics backend."""
+
+from __future__ import annotations
+
+from .link import ArduPilotLink
+from .spec import ArduPilotSpec
+
+__all__ = ["ArduPilotLink", "ArduPilotSpec"]
