@@ -240,6 +240,8 @@ def number_faults(value: Any, name: str) -> Iterator[str]:
     elif isinstance(value, list | tuple):
         for item in value:
             yield from number_faults(item, name)
+    elif name == "temperature" and math.isnan(value):
+        return  # of a battery: ROS has NaN where it is not measured
     elif isinstance(value, float | np.ndarray) and not is_finite(value):
         yield f"{name} is not finite"
 

@@ -18,7 +18,7 @@ from ...autopilots.ardupilot import PwmCurve, read_pwm_curve
 from ...autopilots.ardupilot.pwm import DEFAULT_CURVE
 from ...errors import SceneError, UnknownName, UwsimError
 from ...messages import Float64
-from ...schema import Spec, diagnostic_at, element
+from ...schema import Numbers, Spec, diagnostic_at, element
 from ...vehicle import JointIndices, Servos, Vehicle
 from ...world import DeviceWorld
 from ..device import DeviceVehicle
@@ -41,7 +41,7 @@ class ChannelSpec(Spec):
     """The name of the joint, of a vehicle with dynamics."""
     reversed: bool = False
     """True if the command has the opposite sign."""
-    curve: tuple[float, ...] = element(default=DEFAULT_CURVE, max_count=MAX_CURVE_NUMBERS)
+    curve: Numbers = element(default=DEFAULT_CURVE, max_count=MAX_CURVE_NUMBERS)
     """The pulse width [us] and the command [-1..1] of each point of the curve between them, which
     is straight from point to point."""
     lower: float = 0.0

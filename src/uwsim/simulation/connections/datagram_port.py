@@ -86,7 +86,7 @@ class PeerPort:
         """Return datagrams of other senders than the peer, ``limit`` at most."""
         if self._peer_socket is None:
             return ()
-        datagrams = []
+        datagrams: list[tuple[bytes, Address]] = []
         while len(datagrams) < limit and (data := _receive(self._open_socket)) is not None:
             datagrams.append(data)
         return datagrams
