@@ -85,7 +85,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     "logs": BASE | {"middleware", "logs"},
     "gap": TASKS | ENGINES | {"checks", "runs", "analysis", "logs", "gap"},
     "identification": TASKS | ENGINES | {"analysis", "logs", "identification"},
-    "scenarios": TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "scenarios"},
+    "virtual_sensors": ENGINES | {"simulation", "logs", "virtual_sensors"},
+    "scenarios": (
+        TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "virtual_sensors", "scenarios"}
+    ),
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
@@ -104,6 +107,7 @@ MAY_IMPORT: dict[str, set[str]] = {
             "logs",
             "gap",
             "identification",
+            "virtual_sensors",
             "scenarios",
             "viewer",
             "cli",

@@ -10,13 +10,15 @@ import typer
 
 from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import print_warnings, warn
-from ..errors import ErrorCollector
+from ..errors import BadSetting, ErrorCollector
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.substituted_files import warn_of_substituted_files
+from .logs.virtual_play import VirtualPlay, play_virtual
 from .options.connections import ConnectionOptions, open_connections
 from .options.help_texts import INPUT, option
 from .options.options import DataPathOption, NoCodeOption, SettingOptions
 from .options.run_options import ProgramOptions, RecordOptions, SeedOption
+from .options.virtual import CompositionOptions, FollowLogOptions
 from .render import load_scene
 from .run import check_run_options, run_and_report, scene_settings
 
@@ -30,7 +32,8 @@ def play(
         Path,
         typer.Argument(
             metavar="FILE",
-            help="A recording: .bag of ROS 1, .mcap or .db3 of ROS 2, or a rosbag2 folder.",
+            help="A recording: .bag of ROS 1, .mcap or .db3 of ROS 2, or a rosbag2 folder; with "
+            "--virtual-sensors any log.",
         ),
     ],
     scene: Annotated[
@@ -49,6 +52,8 @@ def play(
             "recorded odometry.",
         ),
     ] = False,
+    follow: FollowLogOptions,
+    composition: CompositionOptions,
     program_options: ProgramOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
@@ -65,6 +70,9 @@ def play(
     joint states, and the sensors of the scene measure along that motion. A topic of both recording
     and scene is published as /recorded/TOPIC. With --commands the recorded commands drive the
     vehicles.
+
+    With --virtual-sensors a vehicle follows the poses of any log at every step. The scene then
+    publishes on /virtual/TOPIC. --compose draws its virtual objects into the recorded images.
     """
     from ..checks import model_warnings
     from ..middleware.recording import BagReader
@@ -82,9 +90,27 @@ def play(
             if no_code:
                 refuse_code(spec)
     run_settings = check_run_options(program_options, output, changes, connections, errors)
+    follow.check(scene, errors)
+    composition.check(errors)
+    with errors.collect():
+        if composition.compose and not follow.virtual_sensors:
+            raise BadSetting("--compose needs --virtual-sensors.")
     errors.raise_errors()
     announce_code(spec)
     warn_of_substituted_files(spec, folders)
+    if follow.virtual_sensors:
+        request = VirtualPlay(
+            path=recording,
+            scene=spec,
+            seed=seed,
+            folders=folders,
+            follow=follow,
+            composition=composition,
+            connections=connections,
+            output=output,
+        )
+        play_virtual(request, run_settings, is_whole=program_options.duration is None)
+        return
     model = compile_scene(spec, seed=seed, data_path=folders)
     with BagReader(recording) as reader, Simulation(model) as simulation:
         print_warnings(model_warnings(model))

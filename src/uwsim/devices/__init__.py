@@ -11,6 +11,8 @@ from .fault import FaultSpec
 from .force_sensor import ForceSensorSpec
 from .lamp import LampSpec
 from .led_array import LedArraySpec
+from .motion.follow_pose import FollowPoseSpec
+from .motion.scripted_motion import ScriptedMotionSpec
 from .motor_currents import MotorCurrentsSpec
 from .object_picker import ObjectPickerSpec
 from .structured_light_projector import StructuredLightProjectorSpec
@@ -27,6 +29,8 @@ DEVICES: dict[str, type] = {
     "structuredLightProjector": StructuredLightProjectorSpec,
     f"{{{NAMESPACE}}}lamp": LampSpec,
     f"{{{NAMESPACE}}}sway": SwaySpec,
+    f"{{{NAMESPACE}}}scriptedMotion": ScriptedMotionSpec,
+    f"{{{NAMESPACE}}}followPose": FollowPoseSpec,
     f"{{{NAMESPACE}}}fault": FaultSpec,
     f"{{{NAMESPACE}}}battery": BatterySpec,
     f"{{{NAMESPACE}}}motorCurrents": MotorCurrentsSpec,

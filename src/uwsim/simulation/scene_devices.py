@@ -9,6 +9,8 @@ from ..assets.pattern import read_pattern
 from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
 from ..devices.led_array import LedArray
+from ..devices.motion.follow_pose import PoseFollower
+from ..devices.motion.scripted_motion import ScriptedMotion
 from ..devices.structured_light_projector import MountedProjector
 from ..errors import AssetNotFound, SceneError, UnknownName
 from ..model.robots import find_file
@@ -50,7 +52,9 @@ def bind_devices(
                 sensors.add(element, getattr(part, "name", ""), device)
             if not spec.vr:
                 visible_devices.append(device)
-    return tuple(devices), _set_lights(scene, visible_devices)
+    _stop_sensors(sensors, devices)
+    files = {**_set_lights(scene, visible_devices), **_read_motions(scene, devices)}
+    return tuple(devices), files
 
 
 def _bind(
@@ -64,6 +68,25 @@ def _bind(
         if spec.source_line is None:
             raise
         raise SceneError([diagnostic_at(spec, f"<{element}>: {error}")]) from error
+
+
+def _stop_sensors(sensors: SceneSensors, devices: Sequence[Device]) -> None:
+    """Let no sensor publish while a vehicle whose poses it requires has stale ones."""
+    followers = [device for device in devices if isinstance(device, PoseFollower)]
+    stopping_followers = [item for item in followers if item.spec.on_timeout == "stop"]
+    if stopping_followers:
+        sensors.is_silent = lambda: any(follower.is_stale for follower in stopping_followers)
+
+
+def _read_motions(scene: PhysicalScene, devices: Sequence[Device]) -> dict[str, Path]:
+    """Read the tables of scripted motions; return their paths by file name."""
+    files = dict[str, Path]()
+    for device in devices:
+        if isinstance(device, ScriptedMotion) and device.spec.file:
+            path = find_file(device.spec.file, scene.model.scene.path, scene.model.data_path)
+            device.follow(device.spec.read(path))
+            files[path.name] = path
+    return files
 
 
 def _set_lights(scene: PhysicalScene, devices: Sequence[Device]) -> dict[str, Path]:

@@ -45,6 +45,8 @@ class SceneSensors:
         """The names of the virtual cameras, in the file's order."""
         self.faulty_topics: list[FaultyTopic] = []
         """The topics on which simulated faults modify the messages."""
+        self.is_silent: Callable[[], bool] | None = None
+        """A function that returns whether no sensor publishes now; None: all always do."""
 
     def add(self, element: str, name: str, device: Sensor) -> None:
         """Add a device with measurements, by its XML element and name."""
@@ -73,6 +75,8 @@ class SceneSensors:
 
     def has_faults(self, sensor: str) -> bool:
         """Return whether faults modify the messages of a sensor before they are published."""
+        if self.is_silent is not None:
+            return True
         parts = [part for vehicle in self._spec.vehicles for part in vehicle.parts_of(FaultSpec)]
         return any(part.sensor == sensor for part in parts)
 
@@ -80,8 +84,20 @@ class SceneSensors:
         """Return the function that applies the faults of a sensor and publishes its messages."""
         world = self._world
         publish: Callable[[Any], None] = world.bus.publisher(topic, type_)
+        if self.is_silent is not None:
+            publish = _make_silenced(publish, self.is_silent)
         faults = make_faults(self._spec, sensor, topic, type_, world.stream)
         if not faults:
             return publish
         self.faulty_topics.append(FaultyTopic(faults, publish, lambda: world.time))
         return self.faulty_topics[-1].publish
+
+
+def _make_silenced(
+    publish: Callable[[Any], None], is_silent: Callable[[], bool]
+) -> Callable[[Any], None]:
+    def publish_unless_silent(message: Any) -> None:
+        if not is_silent():
+            publish(message)
+
+    return publish_unless_silent

@@ -233,6 +233,7 @@ class Scenery:
         fog: float | None = None,
         targets: Collection[str] = ALL_TARGETS,
         is_polished: bool = False,
+        hidden_ids: frozenset[int] = frozenset(),
     ) -> RenderedImage:
         """Render a noise-free image with range and part numbers.
 
@@ -243,6 +244,7 @@ class Scenery:
             targets: the images to render, some of `ALL_TARGETS`.
             is_polished: render for presentation (`Light.is_polished`). Edges are smooth if colour
                 is the only target: a pixel has one range and one number, those of its centre.
+            hidden_ids: the segmentation IDs of the parts that are left out, besides the ghosts.
         """
         return self._draw_smooth(
             world_from_camera,
@@ -251,6 +253,7 @@ class Scenery:
             light=self._light(is_polished=is_polished),
             targets=frozenset(targets),
             samples=POLISHED_SAMPLES if is_polished and set(targets) == {"colour"} else 1,
+            hidden_ids=self._hidden_ids | hidden_ids if hidden_ids else None,
         )
 
     def render_view(

@@ -1,0 +1,1 @@
+"""The motion of a vehicle as it is given from outside: a table of poses, or a real vehicle."""
