@@ -15,6 +15,7 @@ from .motion.follow_pose import FollowPoseSpec
 from .motion.scripted_motion import ScriptedMotionSpec
 from .motor_currents import MotorCurrentsSpec
 from .object_picker import ObjectPickerSpec
+from .px4 import Px4Spec
 from .structured_light_projector import StructuredLightProjectorSpec
 from .sway import SwaySpec
 
@@ -35,6 +36,7 @@ DEVICES: dict[str, type] = {
     f"{{{NAMESPACE}}}battery": BatterySpec,
     f"{{{NAMESPACE}}}motorCurrents": MotorCurrentsSpec,
     f"{{{NAMESPACE}}}ardupilot": ArduPilotSpec,
+    f"{{{NAMESPACE}}}px4": Px4Spec,
 }
 """The spec of each device element of a vehicle; extensions of UWSim's dialect are last."""
 

@@ -1,0 +1,8 @@
+"""PX4 as the autopilot of a vehicle, in lock-step over its HIL messages."""
+
+from __future__ import annotations
+
+from .px4 import Px4Spec
+
+__all__ = ["Px4Spec"]
+"""The spec of ``<u:px4>``."""
