@@ -13,6 +13,7 @@ from .lamp import LampSpec
 from .led_array import LedArraySpec
 from .motion.follow_pose import FollowPoseSpec
 from .motion.scripted_motion import ScriptedMotionSpec
+from .mavlink import MavlinkSpec
 from .motor_currents import MotorCurrentsSpec
 from .object_picker import ObjectPickerSpec
 from .px4 import Px4Spec
@@ -37,6 +38,7 @@ DEVICES: dict[str, type] = {
     f"{{{NAMESPACE}}}motorCurrents": MotorCurrentsSpec,
     f"{{{NAMESPACE}}}ardupilot": ArduPilotSpec,
     f"{{{NAMESPACE}}}px4": Px4Spec,
+    f"{{{NAMESPACE}}}mavlink": MavlinkSpec,
 }
 """The spec of each device element of a vehicle; extensions of UWSim's dialect are last."""
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.geometry import Array
+from ...base.numerics.linear import length
 from .message import Message
 
 LOCAL_FRD, BODY_FRD = 20, 12
@@ -61,8 +62,8 @@ def rotation_vector(rotation: Array) -> Array:
             rotation[1, 0] - rotation[0, 1],
         ]
     )
-    sine = math.sqrt(float(sine_axis @ sine_axis))
-    cosine = 0.5 * (float(np.trace(rotation)) - 1.0)
+    sine = length(sine_axis)
+    cosine = 0.5 * (float(rotation[0, 0] + rotation[1, 1] + rotation[2, 2]) - 1.0)
     angle = math.atan2(sine, cosine)
     return sine_axis * (angle / sine) if sine > 1e-12 else sine_axis
 

@@ -64,13 +64,13 @@ def is_autopilot_heartbeat(message: Message) -> bool:
 
 def apply_heartbeat(status: AutopilotStatus, message: Message, time: float) -> bool:
     """Update the status from a heartbeat; return True if mode, arming or system have changed."""
-    previous = (status.system, status.mode, status.is_armed)
+    old_values = (status.system, status.mode, status.is_armed)
     status.system = message.system
     status.vehicle_type = message.integer("type")
     status.mode = message.integer("custom_mode")
     status.is_armed = bool(message.integer("base_mode") & ARMED_FLAG)
     status.heartbeat_time = time
-    return previous != (status.system, status.mode, status.is_armed)
+    return old_values != (status.system, status.mode, status.is_armed)
 
 
 def read_text(status: AutopilotStatus, message: Message) -> str | None:

@@ -1,0 +1,7 @@
+"""The connection of a vehicle to its autopilot by MAVLink: sensors out, commands in and out."""
+
+from __future__ import annotations
+
+from .mavlink import MavlinkSpec
+
+__all__ = ["MavlinkSpec"]
