@@ -99,7 +99,7 @@ class FakeAutopilot:
         assert self._peer is not None
         self._peer.sendall(data)
 
-    def received(self, name: str) -> list[Any]:
+    def find_messages(self, name: str) -> list[Any]:
         """Return the messages of a name that have come so far."""
         return [message for message in self.messages if message.get_type() == name]
 

@@ -100,16 +100,16 @@ def publish(pair: Pair, topic: str, message: object) -> None:
 def test_sensors_arrive_at_the_rates_of_their_topics(pair: Pair) -> None:
     pair.simulation.advance(3.0)
     counts = {
-        name: len(pair.autopilot.received(name))
+        name: len(pair.autopilot.find_messages(name))
         for name in ("VISION_POSITION_DELTA", "ODOMETRY", "DISTANCE_SENSOR")
     }
     assert counts["VISION_POSITION_DELTA"] == pytest.approx(30, abs=2)
     assert counts["ODOMETRY"] == pytest.approx(150, abs=2)
     assert counts["DISTANCE_SENSOR"] == pytest.approx(30, abs=2)
-    deltas = pair.autopilot.received("VISION_POSITION_DELTA")
+    deltas = pair.autopilot.find_messages("VISION_POSITION_DELTA")
     assert {message.time_delta_usec for message in deltas} == {100_000}
     assert {(m.get_srcSystem(), m.get_srcComponent()) for m in deltas} == {(1, 197)}
-    heartbeats = pair.autopilot.received("HEARTBEAT")
+    heartbeats = pair.autopilot.find_messages("HEARTBEAT")
     assert len(heartbeats) in (6, 8)  # of a station and of a computer on board
 
 
@@ -122,23 +122,23 @@ def test_velocities_and_positions_are_in_the_axes_of_the_autopilot(pair: Pair) -
         pair.simulation.advance(0.1)
     velocity = pair.simulation.world.vehicles.find("bluerov2").velocity[:3]  # forward, right, down
     assert np.abs(velocity).max() > 0.05
-    delta = pair.autopilot.received("VISION_POSITION_DELTA")[-1]
+    delta = pair.autopilot.find_messages("VISION_POSITION_DELTA")[-1]
     measured = np.array(delta.position_delta) / (delta.time_delta_usec * 1e-6)
     assert measured == pytest.approx(velocity, abs=0.03)  # noise and the lever arm
     position = pair.simulation.pose("bluerov2").position  # L is north, east, down in this scene
-    odometry = pair.autopilot.received("ODOMETRY")[-1]
+    odometry = pair.autopilot.find_messages("ODOMETRY")[-1]
     assert [odometry.x, odometry.y, odometry.z] == pytest.approx(position, abs=0.02)
     assert [odometry.vx, odometry.vy, odometry.vz] == pytest.approx(velocity, abs=0.02)
-    distance = pair.autopilot.received("DISTANCE_SENSOR")[-1].current_distance
+    distance = pair.autopilot.find_messages("DISTANCE_SENSOR")[-1].current_distance
     assert distance == pytest.approx(100 * ranges.take()[-1].range, abs=0.51)
 
 
 def test_the_first_heartbeat_brings_the_origin_and_requests_the_estimate(pair: Pair) -> None:
     pair.simulation.advance(1.5)
-    (origin,) = pair.autopilot.received("SET_GPS_GLOBAL_ORIGIN")
+    (origin,) = pair.autopilot.find_messages("SET_GPS_GLOBAL_ORIGIN")
     assert origin.latitude == pytest.approx(41.9616e7, abs=1)
     assert origin.longitude == pytest.approx(2.8353e7, abs=1)
-    requested = [m.param1 for m in pair.autopilot.received("COMMAND_LONG") if m.command == 511]
+    requested = [m.param1 for m in pair.autopilot.find_messages("COMMAND_LONG") if m.command == 511]
     assert sorted(requested) == [30, 32]
 
 
@@ -171,17 +171,17 @@ def test_mode_arming_and_texts_are_commanded_and_reported(
 
 def test_sticks_are_repeated_so_that_no_failsafe_acts(pair: Pair) -> None:
     pair.simulation.advance(0.5)
-    assert pair.autopilot.received("MANUAL_CONTROL") == []
+    assert pair.autopilot.find_messages("MANUAL_CONTROL") == []
     layout = MultiArrayLayout(dim=[], data_offset=0)
     publish(pair, "sticks", Float64MultiArray(layout=layout, data=np.array([0.5, 0, -0.2])))
     pair.simulation.advance(1.0)
-    received = pair.autopilot.received("MANUAL_CONTROL")
+    received = pair.autopilot.find_messages("MANUAL_CONTROL")
     assert len(received) == pytest.approx(26, abs=2)
     assert {(m.x, m.y, m.z, m.r) for m in received} == {(500, 0, 400, 0)}
     assert {m.get_srcSystem() for m in received} == {255}
     publish(pair, "sticks", Float64MultiArray(layout=layout, data=np.full(9, 0.5)))
     pair.simulation.advance(0.2)
-    assert pair.autopilot.received("MANUAL_CONTROL")[-1].x == 500  # nine numbers are ignored
+    assert pair.autopilot.find_messages("MANUAL_CONTROL")[-1].x == 500  # nine numbers are ignored
 
 
 def test_a_setpoint_of_the_scene_is_one_in_north_east_down(pair: Pair) -> None:
@@ -194,7 +194,7 @@ def test_a_setpoint_of_the_scene_is_one_in_north_east_down(pair: Pair) -> None:
     pair.simulation.advance(1.0)
     publish(pair, "setpoint_position", PoseStamped(header=header(0), pose=pose))
     pair.simulation.advance(0.1)
-    moving, fixed = pair.autopilot.received("SET_POSITION_TARGET_LOCAL_NED")
+    moving, fixed = pair.autopilot.find_messages("SET_POSITION_TARGET_LOCAL_NED")
     assert [moving.x, moving.y, moving.z] == pytest.approx([1, 2, 3])
     assert [moving.vx, moving.vy, moving.vz] == pytest.approx([0.1, 0.2, 0.3])
     assert moving.yaw == pytest.approx(math.pi / 2)
@@ -220,7 +220,7 @@ def test_a_silent_autopilot_and_its_return_are_reported(
     pair.autopilot._heartbeat_time = 8.5
     pair.simulation.advance(9.0)
     assert capsys.readouterr().err.count("no heartbeat for 5 s") == 1
-    assert len(pair.autopilot.received("SET_GPS_GLOBAL_ORIGIN")) == 2  # it may have started again
+    assert len(pair.autopilot.find_messages("SET_GPS_GLOBAL_ORIGIN")) == 2  # it may have started again
 
 
 def test_messages_of_other_systems_change_nothing(pair: Pair) -> None:
@@ -251,7 +251,7 @@ def test_a_state_is_restored_with_the_link(pair: Pair) -> None:
     pair.simulation.advance(1.0)
     pair.simulation.restore(saved)
     pair.simulation.advance(0.5)
-    times = [m.time_usec for m in pair.autopilot.received("VISION_POSITION_DELTA")]
+    times = [m.time_usec for m in pair.autopilot.find_messages("VISION_POSITION_DELTA")]
     assert times.count(1_200_000) == 2
 
 
@@ -261,11 +261,11 @@ def test_a_state_is_restored_with_the_link(pair: Pair) -> None:
 )
 def test_no_bytes_at_the_port_end_or_slow_the_run(shared_pair: Pair, data: list[bytes]) -> None:
     pair = shared_pair
-    n_before = len(pair.autopilot.received("ODOMETRY"))
+    n_before = len(pair.autopilot.find_messages("ODOMETRY"))
     for piece in data:
         pair.autopilot.send_bytes(piece)
     pair.simulation.advance(0.2)
-    assert len(pair.autopilot.received("ODOMETRY")) == n_before + 10  # the rate is kept
+    assert len(pair.autopilot.find_messages("ODOMETRY")) == n_before + 10  # the rate is kept
 
 
 @pytest.fixture(scope="module")

@@ -123,8 +123,8 @@ class CommandTopics:
             return
         yaw = None
         if length(quaternion) > 0.5:
-            ahead = rotation_from_quaternion(quaternion / length(quaternion))[:, 0]
-            north, east, _ = product(self._ned_from_localized, ahead).tolist()
+            bow = rotation_from_quaternion(quaternion / length(quaternion))[:, 0]
+            north, east, _ = product(self._ned_from_localized, bow).tolist()
             yaw = math.atan2(east, north)
         time = self._clock()
         has_velocity = state.velocity and time - state.velocity_time <= SETPOINT_TIMEOUT

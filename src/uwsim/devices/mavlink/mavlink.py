@@ -91,7 +91,8 @@ class MavlinkSpec(DeviceSpec):
     system: int = element(default=1, minimum=1, maximum=254)
     """The MAVLink system of the sensors, that of the vehicle."""
     sets_origin: bool = True
-    """True to send the scene's ``<nedOrigin>`` as the origin of the autopilot's local positions."""
+    """True if the scene's ``<nedOrigin>`` is sent as the origin of the autopilot's local
+    positions."""
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
@@ -116,7 +117,7 @@ class MavlinkState(Record):
     commands: CommandState
     """The commands that are repeated."""
     status: AutopilotStatus = field(default_factory=AutopilotStatus)
-    """What the autopilot has reported."""
+    """The reports of the autopilot."""
     poll_time: float = -math.inf
     """The time of the next look at what has arrived [s]."""
     heartbeat_time: float = -math.inf
