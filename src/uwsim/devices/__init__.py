@@ -11,12 +11,14 @@ from .fault import FaultSpec
 from .force_sensor import ForceSensorSpec
 from .lamp import LampSpec
 from .led_array import LedArraySpec
+from .mavlink import MavlinkSpec
 from .motion.follow_pose import FollowPoseSpec
 from .motion.scripted_motion import ScriptedMotionSpec
-from .mavlink import MavlinkSpec
 from .motor_currents import MotorCurrentsSpec
 from .object_picker import ObjectPickerSpec
 from .px4 import Px4Spec
+from .streams.actuator_stream import ActuatorStreamSpec
+from .streams.instrument_stream import InstrumentStreamSpec
 from .structured_light_projector import StructuredLightProjectorSpec
 from .sway import SwaySpec
 
@@ -39,6 +41,8 @@ DEVICES: dict[str, type] = {
     f"{{{NAMESPACE}}}ardupilot": ArduPilotSpec,
     f"{{{NAMESPACE}}}px4": Px4Spec,
     f"{{{NAMESPACE}}}mavlink": MavlinkSpec,
+    f"{{{NAMESPACE}}}instrumentStream": InstrumentStreamSpec,
+    f"{{{NAMESPACE}}}actuatorStream": ActuatorStreamSpec,
 }
 """The spec of each device element of a vehicle; extensions of UWSim's dialect are last."""
 

@@ -45,7 +45,7 @@ class DvlPing:
     """The time since the last valid velocity over the bottom [s]."""
     water_age: float = 0.0
     """The time since the last valid velocity through the water [s]."""
-    vertical_ranges: tuple[float, float, float, float] = (math.nan,) * 4
+    vertical_ranges: tuple[float, ...] = (math.nan,) * 4
     """The distance along the instrument's axis that each beam measures [m]; NaN: no echo."""
     roll: float = 0.0
     """The roll angle of the vehicle [deg]."""
