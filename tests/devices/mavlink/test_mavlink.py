@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import socket
 from collections.abc import Iterator
 from pathlib import Path
@@ -42,13 +43,16 @@ ELEMENT = """<u:mavlink>
       <name>ap</name> <address>{address}</address> {content}
     </u:mavlink>
     <u:dynamics>bluerov2_heavy</u:dynamics>"""
+HOME = "<home> <x>10</x> <y>0</y> <z>0</z> </home>"
 SENSORS = (
-    "<dvl>/bluerov2/dvl</dvl> <odometry>/bluerov2/odom</odometry> <range>/bluerov2/altitude</range>"
+    "<dvl>/bluerov2/dvl</dvl> <odometry>/bluerov2/odom</odometry> "
+    f"<range>/bluerov2/altitude</range> {HOME}"
 )
 
 
 def write_scene(folder: Path, address: str, content: str = SENSORS) -> Path:
     text = bundled_files("scenes")["bluerov2-scene"].read_text()
+    text = re.sub(r"<u:ardupilot>.*?</u:ardupilot>", "", text, flags=re.DOTALL)
     element = ELEMENT.format(address=address, content=content)
     path = folder / "scene.xml"
     path.write_text(text.replace("<u:dynamics>bluerov2_heavy</u:dynamics>", element))
@@ -127,7 +131,7 @@ def test_velocities_and_positions_are_in_the_axes_of_the_autopilot(pair: Pair) -
     assert measured == pytest.approx(velocity, abs=0.03)  # noise and the lever arm
     position = pair.simulation.pose("bluerov2").position  # L is north, east, down in this scene
     odometry = pair.autopilot.find_messages("ODOMETRY")[-1]
-    assert [odometry.x, odometry.y, odometry.z] == pytest.approx(position, abs=0.02)
+    assert [odometry.x + 10, odometry.y, odometry.z] == pytest.approx(position, abs=0.02)
     assert [odometry.vx, odometry.vy, odometry.vz] == pytest.approx(velocity, abs=0.02)
     distance = pair.autopilot.find_messages("DISTANCE_SENSOR")[-1].current_distance
     assert distance == pytest.approx(100 * ranges.take()[-1].range, abs=0.51)
@@ -136,7 +140,8 @@ def test_velocities_and_positions_are_in_the_axes_of_the_autopilot(pair: Pair) -
 def test_the_first_heartbeat_brings_the_origin_and_requests_the_estimate(pair: Pair) -> None:
     pair.simulation.advance(1.5)
     (origin,) = pair.autopilot.find_messages("SET_GPS_GLOBAL_ORIGIN")
-    assert origin.latitude == pytest.approx(41.9616e7, abs=1)
+    north = 10 / 111_070  # of home, where a degree of latitude is 111.07 km
+    assert origin.latitude == pytest.approx((41.9616 + north) * 1e7, abs=3)
     assert origin.longitude == pytest.approx(2.8353e7, abs=1)
     requested = [m.param1 for m in pair.autopilot.find_messages("COMMAND_LONG") if m.command == 511]
     assert sorted(requested) == [30, 32]
@@ -195,7 +200,7 @@ def test_a_setpoint_of_the_scene_is_one_in_north_east_down(pair: Pair) -> None:
     publish(pair, "setpoint_position", PoseStamped(header=header(0), pose=pose))
     pair.simulation.advance(0.1)
     moving, fixed = pair.autopilot.find_messages("SET_POSITION_TARGET_LOCAL_NED")
-    assert [moving.x, moving.y, moving.z] == pytest.approx([1, 2, 3])
+    assert [moving.x, moving.y, moving.z] == pytest.approx([1 - 10, 2, 3])
     assert [moving.vx, moving.vy, moving.vz] == pytest.approx([0.1, 0.2, 0.3])
     assert moving.yaw == pytest.approx(math.pi / 2)
     assert fixed.type_mask & 0x38  # the velocity was too old
@@ -209,7 +214,7 @@ def test_the_estimate_of_the_autopilot_is_published_in_the_frame_of_the_scene(pa
     pair.simulation.advance(0.2)
     (estimate,) = estimates.take()
     position, q = estimate.pose.position, estimate.pose.orientation
-    assert [position.x, position.y, position.z] == pytest.approx([1, 2, 3])
+    assert [position.x, position.y, position.z] == pytest.approx([1 + 10, 2, 3])
     assert 2 * math.atan2(q.z, q.w) == pytest.approx(0.5)
 
 
@@ -220,7 +225,9 @@ def test_a_silent_autopilot_and_its_return_are_reported(
     pair.autopilot._heartbeat_time = 8.5
     pair.simulation.advance(9.0)
     assert capsys.readouterr().err.count("no heartbeat for 5 s") == 1
-    assert len(pair.autopilot.find_messages("SET_GPS_GLOBAL_ORIGIN")) == 2  # it may have started again
+    assert (
+        len(pair.autopilot.find_messages("SET_GPS_GLOBAL_ORIGIN")) == 2
+    )  # it may have started again
 
 
 def test_messages_of_other_systems_change_nothing(pair: Pair) -> None:

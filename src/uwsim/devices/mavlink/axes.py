@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from ...base.geometry import Array, Pose, quaternion_from_rotation
+from ...base.geometry import Array, Pose
 from ...base.numerics.linear import product
 from ...vehicle import Vehicle
 
@@ -33,14 +35,38 @@ class BodyAxes:
         return product(product(NED_FROM_WORLD, world_from_base), self.frd_from_base.T)
 
 
-def ned_pose(world_from_body: Pose) -> tuple[Array, tuple[float, ...]]:
-    """Return a pose in W, of forward, starboard, down axes, as position in NED and quaternion.
+class HomeFrame:
+    """The frame of an autopilot's local positions: north, east, down from home.
 
     Args:
-        world_from_body: the pose.
-
-    Returns:
-        North, east, down from the origin of W (3,) [m], and the quaternion w, x, y, z.
+        world_from_localized: the pose of L, the frame of positions on topics, in W.
+        home: the position of home in L, (3,) [m].
     """
-    quaternion = quaternion_from_rotation(product(NED_FROM_WORLD, world_from_body.rotation))
-    return product(NED_FROM_WORLD, world_from_body.position), tuple(quaternion.tolist())
+
+    def __init__(self, world_from_localized: Pose, home: Sequence[float]) -> None:
+        self._world_from_localized = world_from_localized
+        self._home = world_from_localized.transform(np.array(home))
+        self.ned_from_localized = product(NED_FROM_WORLD, world_from_localized.rotation)
+        """The rotation from the axes of L to north, east, down, (3, 3)."""
+
+    @property
+    def origin(self) -> Array:
+        """North, east, down of home from the origin of W, (3,) [m]."""
+        return product(NED_FROM_WORLD, self._home)
+
+    def position(self, point: Array) -> Array:
+        """Return north, east, down from home of a point in L, (3,) [m]."""
+        return product(NED_FROM_WORLD, self._world_from_localized.transform(point) - self._home)
+
+    def localized_pose(self, position: Array, ned_from_body: Array) -> Pose:
+        """Return the pose in L of a body with axes forward, starboard, down.
+
+        Args:
+            position: north, east, down from home, (3,) [m].
+            ned_from_body: the axes of the body, (3, 3).
+        """
+        world_from_body = Pose(
+            self._home + product(NED_FROM_WORLD.T, position),
+            product(NED_FROM_WORLD.T, ned_from_body),
+        )
+        return self._world_from_localized.inverse() @ world_from_body

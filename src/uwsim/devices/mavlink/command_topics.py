@@ -12,14 +12,14 @@ from ...autopilots.mavlink import Message, commands
 from ...autopilots.mavlink.commands import Sticks, Target
 from ...autopilots.mavlink.modes import SUB_MODES, mode_number, modes_of
 from ...autopilots.mavlink.status import AutopilotStatus
-from ...base.geometry import Pose, rotation_from_quaternion
+from ...base.geometry import rotation_from_quaternion
 from ...base.numerics.linear import length, product
 from ...base.record import Record
 from ...bus import Bus, Remark
 from ...errors import BadSetting
 from ...messages import Bool, Float64MultiArray, PoseStamped, String, TwistStamped
 from ..device import DeviceTopic
-from .axes import NED_FROM_WORLD
+from .axes import HomeFrame
 
 STICK_NAMES = ("surge", "sway", "heave", "yaw", "pitch", "roll")
 """The numbers of a message of sticks, in their order; missing ones are 0."""
@@ -57,7 +57,7 @@ class CommandTopics:
     Args:
         bus: the topics.
         name: the name of the device, with which its topics begin.
-        world_from_localized: the pose of L, the frame of positions on topics, in W.
+        home: the frame of the autopilot's local positions.
         status: the status of the autopilot.
         clock: the function that returns the simulation time [s].
         send: the function that sends a message.
@@ -68,13 +68,12 @@ class CommandTopics:
         bus: Bus,
         name: str,
         *,
-        world_from_localized: Pose,
+        home: HomeFrame,
         status: AutopilotStatus,
         clock: Callable[[], float],
         send: Callable[[Message], None],
     ) -> None:
-        self._ned_from_localized = product(NED_FROM_WORLD, world_from_localized.rotation)
-        self._origin = product(NED_FROM_WORLD, world_from_localized.position)  # of L [m]
+        self._home = home
         self._status, self._clock, self._send = status, clock, send
         self.state = CommandState()
         """The commands that are repeated or combined."""
@@ -124,16 +123,15 @@ class CommandTopics:
         yaw = None
         if length(quaternion) > 0.5:
             bow = rotation_from_quaternion(quaternion / length(quaternion))[:, 0]
-            north, east, _ = product(self._ned_from_localized, bow).tolist()
+            north, east, _ = product(self._home.ned_from_localized, bow).tolist()
             yaw = math.atan2(east, north)
         time = self._clock()
         has_velocity = state.velocity and time - state.velocity_time <= SETPOINT_TIMEOUT
-        position = self._origin + product(self._ned_from_localized, point)
         self._send(
             commands.local_target(
                 self.target,
                 time,
-                position=position.tolist(),
+                position=self._home.position(point).tolist(),
                 velocity=state.velocity if has_velocity else None,
                 yaw=yaw,
             )
@@ -142,7 +140,7 @@ class CommandTopics:
     def _set_velocity(self, message: TwistStamped) -> None:
         """Store a velocity in the axes of L for the position that follows it."""
         linear = message.twist.linear
-        velocity = product(self._ned_from_localized, (linear.x, linear.y, linear.z))
+        velocity = product(self._home.ned_from_localized, (linear.x, linear.y, linear.z))
         if np.isfinite(velocity).all():
             self.state.velocity = tuple(velocity.tolist())
             self.state.velocity_time = self._clock()

@@ -17,6 +17,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from ...autopilots.mavlink import Identity, Message, commands
 from ...autopilots.mavlink.status import (
     ACK_RESULTS,
@@ -26,16 +28,15 @@ from ...autopilots.mavlink.status import (
     is_autopilot_heartbeat,
     read_text,
 )
-from ...base.geometry import Pose, quaternion_from_rotation, rotation_from_rpy
-from ...base.numerics.linear import product
+from ...base.geometry import ZERO, Triple, quaternion_from_rotation, rotation_from_rpy
 from ...base.record import Record
 from ...base.terminal import report
 from ...messages import DVL, Bool, Odometry, Point, PoseStamped, Quaternion, Range, String, header
 from ...messages import Pose as PoseMessage
-from ...schema import element
+from ...schema import MAX_DISTANCE, element
 from ...world import DeviceWorld
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
-from .axes import NED_FROM_WORLD, BodyAxes
+from .axes import BodyAxes, HomeFrame
 from .command_topics import CommandState, CommandTopics, command_topics
 from .link import Link, LinkState
 from .navigation import NavigationSensors, NavigationState, PositionNoise
@@ -90,6 +91,8 @@ class MavlinkSpec(DeviceSpec):
     """The standard deviation of the noise that is added to its velocities [m/s]."""
     system: int = element(default=1, minimum=1, maximum=254)
     """The MAVLink system of the sensors, that of the vehicle."""
+    home: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
+    """The origin of the autopilot's local positions, in L [m]; that of ``<u:ardupilot>``."""
     sets_origin: bool = True
     """True if the scene's ``<nedOrigin>`` is sent as the origin of the autopilot's local
     positions."""
@@ -149,9 +152,10 @@ class MavlinkDevice(Device):
         noise = PositionNoise(
             position=spec.position_std, attitude=spec.attitude_std, velocity=spec.velocity_std
         )
+        self._home = HomeFrame(world.world_from_localized, spec.home)
         self._sensors = NavigationSensors(
             BodyAxes(vehicle),
-            world.world_from_localized,
+            self._home,
             noise,
             world.stream(f"{vehicle.name}/{spec.name}/noise"),
             self._send_sensor,
@@ -160,7 +164,7 @@ class MavlinkDevice(Device):
         self._commands = CommandTopics(
             world.bus,
             spec.name,
-            world_from_localized=world.world_from_localized,
+            home=self._home,
             status=status,
             clock=lambda: world.time,
             send=self._send_command,
@@ -255,7 +259,7 @@ class MavlinkDevice(Device):
         for number in (LOCAL_POSITION_NUMBER, ATTITUDE_NUMBER):
             self._send_command(commands.set_message_interval(target, number, 0.1))
         if self._spec.sets_origin:
-            origin = self._world.ned_origin
+            origin = self._world.ned_origin.position_at(self._home.origin)
             self._send_command(
                 commands.set_origin(
                     target,
@@ -269,11 +273,9 @@ class MavlinkDevice(Device):
         """Publish the pose that the autopilot estimates, of a base with z down, in L."""
         x, y, z = map(message.number, "xyz")
         state = self.state
-        world_from_base = Pose(
-            product(NED_FROM_WORLD.T, (x, y, z)),
-            product(NED_FROM_WORLD.T, rotation_from_rpy(state.roll, state.pitch, state.yaw)),
+        pose = self._home.localized_pose(
+            np.array([x, y, z]), rotation_from_rpy(state.roll, state.pitch, state.yaw)
         )
-        pose = self._world.world_from_localized.inverse() @ world_from_base
         w, qx, qy, qz = quaternion_from_rotation(pose.rotation).tolist()
         px, py, pz = pose.position.tolist()
         content = PoseMessage(Point(px, py, pz), Quaternion(qx, qy, qz, w))

@@ -17,11 +17,16 @@ from ...autopilots.mavlink.navigation import (
     rotation_vector,
     vision_position_delta,
 )
-from ...base.geometry import Array, Pose, rotation_from_quaternion, rotation_from_rpy
+from ...base.geometry import (
+    Array,
+    quaternion_from_rotation,
+    rotation_from_quaternion,
+    rotation_from_rpy,
+)
 from ...base.numerics.linear import length, product
 from ...base.record import Record
 from ...messages import DVL, Odometry, Range, seconds
-from .axes import BodyAxes, ned_pose
+from .axes import BodyAxes, HomeFrame
 
 MAX_INTERVAL = 1.0
 """The longest time between two velocities of which a displacement is sent [s]."""
@@ -64,7 +69,7 @@ class NavigationSensors:
 
     Args:
         axes: the body axes of the vehicle.
-        world_from_localized: the pose of L, the frame of positions on topics, in W.
+        home: the frame of the autopilot's local positions.
         noise: the noise that is added to positions.
         rng: the generator of the noise.
         send: the function that sends a message.
@@ -73,12 +78,12 @@ class NavigationSensors:
     def __init__(
         self,
         axes: BodyAxes,
-        world_from_localized: Pose,
+        home: HomeFrame,
         noise: PositionNoise,
         rng: np.random.Generator,
         send: Callable[[Message], None],
     ) -> None:
-        self._axes, self._world_from_localized = axes, world_from_localized
+        self._axes, self._home = axes, home
         self._noise, self._send = noise, send
         self.state = NavigationState(rng)
         """The state of the sensors."""
@@ -118,22 +123,20 @@ class NavigationSensors:
         """
         pose, twist = message.pose.pose, message.twist.twist
         q = pose.orientation
-        localized_from_base = Pose(
-            np.array([pose.position.x, pose.position.y, pose.position.z]),
-            rotation_from_quaternion(np.array([q.w, q.x, q.y, q.z])),
-        )
-        world_from_base = self._world_from_localized @ localized_from_base
+        rotation = rotation_from_quaternion(np.array([q.w, q.x, q.y, q.z]))
         frd_from_base, noise = self._axes.frd_from_base, self._noise
         linear, angular = twist.linear, twist.angular
         velocity = product(frd_from_base, (linear.x, linear.y, linear.z))
         rates = product(frd_from_base, (angular.x, angular.y, angular.z))
         draws = self.state.rng.standard_normal(9)
         roll, pitch, yaw = (noise.attitude * draws[3:6]).tolist()
-        position, _ = ned_pose(world_from_base)
+        point = np.array([pose.position.x, pose.position.y, pose.position.z])
+        position = self._home.position(point)
         self._count_jump(seconds(message.header.stamp), position)
-        world_from_frd = product(world_from_base.rotation, frd_from_base.T)
-        rotation = product(world_from_frd, rotation_from_rpy(roll, pitch, yaw))
-        _, quaternion = ned_pose(Pose(world_from_base.position, rotation))
+        localized_from_frd = product(rotation, frd_from_base.T)
+        ned_from_frd = product(self._home.ned_from_localized, localized_from_frd)
+        rotation = product(ned_from_frd, rotation_from_rpy(roll, pitch, yaw))
+        quaternion = tuple(quaternion_from_rotation(rotation).tolist())
         sample = NavigationSample(
             time=seconds(message.header.stamp),
             position=position + noise.position * draws[:3],
