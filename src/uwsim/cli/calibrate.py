@@ -156,7 +156,7 @@ def calibrate(
 def print_example(directory: Path) -> None:
     """Write the example and print how to use it."""
     from ..calibration.example.write_example import SETUP_NAME, write_example
-    from ..calibration.staging import stage_directory
+    from ..base.files.staging import stage_directory
 
     if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
         raise BadSetting(f"--example {directory}: not an empty directory.")

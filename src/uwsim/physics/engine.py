@@ -268,6 +268,13 @@ class Engine:
             self.contacts.invalidate(are_current=False)
         self.poses.mark_stale()
 
+    def set_vehicle_velocity(self, index: int, twist: Array) -> None:
+        """Set the twist of a vehicle's base over ground, in base axes, (6,) [m/s, rad/s]."""
+        dof = self._base_dofs[index]
+        self._data.qvel[dof : dof + 3] = rotate(self.poses.vehicle(index).rotation, twist[:3])
+        self._data.qvel[dof + 3 : dof + 6] = twist[3:]
+        self.poses.mark_stale()
+
     def drift(self, drift: DriftFunction, time: float) -> None:
         """Move kinematic vehicles with the water, by a step that ends at ``time`` [s]."""
         poses: Array = self._data.qpos[self._kinematic_addresses]

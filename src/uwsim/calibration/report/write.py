@@ -10,7 +10,7 @@ from ...results.atomic_file import write_text
 from ...results.directory import clear_directory
 from ..calibrate import Calibration
 from ..readings_file import write_readings
-from ..staging import stage_directory
+from ...base.files.staging import stage_directory
 from .document import json_text
 from .page import render
 from .plots import draw_plots

@@ -87,6 +87,11 @@ class VehicleActuation:
         for fin, angle in zip(self._fins, angles.tolist(), strict=True):
             self._water.turn_fin(self._data, fin, angle)
 
+    def set_rotors(self, speeds: Array) -> None:
+        """Set the rotors, without their lag, to the commands that they would hold, (n,) [1]."""
+        for thruster, speed in zip(self._thrusters, speeds.tolist(), strict=True):
+            self._water.set_rotor(self._data, thruster, speed)
+
     def commands(self) -> Array:
         """Return the commands of the thrusters as shares of the largest command, (n,) [-1..1].
 

@@ -114,9 +114,13 @@ class Hydrodynamics:
     def stop_thruster(self, data: mujoco.MjData, index: int) -> None:
         """Stop a thruster and its rotor at once, by its index among the thrusters."""
         self.set_thruster(data, index, 0.0)
+        self.set_rotor(data, index, 0.0)
+
+    def set_rotor(self, data: mujoco.MjData, index: int, speed: float) -> None:
+        """Set a rotor at once to the speed of a lasting command, if it has a lag [1]."""
         address = int(self.model.actuator_actadr[self.thrusters[index]])
         if address >= 0:
-            data.act[address] = 0.0
+            data.act[address] = speed
 
     def set_loss(self, data: mujoco.MjData, index: int, loss: float) -> None:
         """Set the fraction of its thrust that a thruster loses, by index: 0 healthy, 1 dead."""

@@ -1,0 +1,330 @@
+"""The measurement of the gap between a log and a simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..base.geometry import Array
+from ..errors import BadSetting
+from ..logs import VehicleLog
+from ..model.scene_model import SceneModel
+from ..physics.compile_scene import compile_scene
+from ..scene.spec import SceneSpec
+from ..simulation import Simulation
+from .attribution import Attribution, attribute_residual
+from .coefficients import Coefficient, list_coefficients, scale_coefficient
+from .errors import HorizonError, summarize_horizon
+from .log_motion import LogMotion, relative_motion
+from .residuals import StepResiduals, choose_steps, measure_residuals
+from .sensor_residuals import SensorComparison, SensorResidual
+from .settings import GapSettings
+from .vehicle_commands import VehicleCommands
+from .vehicle_run import VehicleRun, find_vehicle
+from .windows import Windows, choose_windows
+
+N_CURVE = 80
+"""The number of points of the curves of the error over the horizon."""
+AUTOPILOT_FORMATS = ("bin", "tlog")
+"""The formats whose frames are north-east-down always."""
+
+Progress = Callable[[str, int], AbstractContextManager[Callable[[], None]]]
+"""A function that yields a function to call after each run, for a title and a number of runs."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Gap:
+    """The gap between a log and a simulation."""
+
+    log: VehicleLog
+    """The log."""
+    scene: str
+    """The name of the scene."""
+    scene_digest: str
+    """The hash of the compiled scene."""
+    vehicle: str
+    """The name of the vehicle."""
+    settings: GapSettings
+    """The settings."""
+    command_kinds: tuple[str, ...]
+    """The kinds of commands that were applied."""
+    windows: Windows
+    """The windows."""
+    radius: float
+    """The radius of gyration of the vehicle, which weights angles [m]."""
+    horizons: tuple[HorizonError, ...]
+    """The errors at the horizons."""
+    curve_times: Array
+    """The times of the curves, (m,) [s]."""
+    curves: Array
+    """The root mean square of the error over the horizon, (m, 6) [m, rad]."""
+    window_errors: dict[float, Array]
+    """By horizon: the errors of its windows, (n, 6) [m, rad]."""
+    residuals: StepResiduals | None
+    """The one-step residuals; None: the log is too short."""
+    sensors: tuple[SensorResidual, ...]
+    """The residuals of sensors."""
+    attribution: Attribution | None
+    """The attribution to coefficients; None: not requested."""
+    remarks: tuple[str, ...]
+    """The remarks about the log and the comparison."""
+
+
+def measure_gap(
+    log: VehicleLog,
+    scene: SceneSpec,
+    *,
+    vehicle: str | None = None,
+    settings: GapSettings | None = None,
+    data_path: Sequence[Path] = (),
+    progress: Progress | None = None,
+) -> Gap:
+    """Simulate the commands of a log from its states, window by window, and compare.
+
+    Args:
+        log: the log, with a motion and commands.
+        scene: the scene.
+        vehicle: the name of the vehicle in the scene; None: the only one with dynamics.
+        settings: the settings; None: the defaults.
+        data_path: the folders in which files are searched.
+        progress: shows the progress.
+
+    Raises:
+        UwsimError: the log lacks a motion or commands, or does not fit the vehicle.
+    """
+    settings = settings or GapSettings()
+    return _Measurement(log, scene, vehicle, settings, tuple(data_path), progress).run()
+
+
+class _Measurement:
+    """One measurement of the gap."""
+
+    def __init__(
+        self,
+        log: VehicleLog,
+        scene: SceneSpec,
+        vehicle: str | None,
+        settings: GapSettings,
+        data_path: tuple[Path, ...],
+        progress: Progress | None,
+    ) -> None:
+        self._log, self._settings, self._data_path = log, settings, data_path
+        self._progress: Progress = progress or (lambda title, total: nullcontext(lambda: None))
+        self._remarks = list(log.remarks)
+        self._motion = LogMotion(_check_motion(log))
+        self._scene = scene
+        self._model = self._compile(scene)
+        self._index = find_vehicle(self._model, vehicle)
+        self._name = self._model.scene.vehicles[self._index].name
+        _check_frame(log, self._model)
+
+    def run(self) -> Gap:
+        """Measure the gap."""
+        settings = self._settings
+        with self._open(self._model) as run:
+            commands = run.commands
+            windows = choose_windows(
+                self._motion, commands.start, commands.end, settings.horizons, settings.n_windows
+            )
+            horizons, curves, errors = self._compare(run, windows)
+            residuals = self._measure_residuals(run)
+        sensors = self._compare_sensors(windows)
+        attribution = self._attribute(windows) if settings.has_attribution else None
+        curve_times, curve_values = curves
+        return Gap(
+            log=self._log,
+            scene=Path(self._scene.path).stem,
+            scene_digest=self._model.digest,
+            vehicle=self._name,
+            settings=settings,
+            command_kinds=commands.kinds,
+            windows=windows,
+            radius=self._radius(),
+            horizons=horizons,
+            curve_times=curve_times,
+            curves=curve_values,
+            window_errors=errors,
+            residuals=residuals,
+            sensors=sensors,
+            attribution=attribution,
+            remarks=tuple(self._remarks),
+        )
+
+    def _compile(self, scene: SceneSpec) -> SceneModel:
+        return compile_scene(scene, seed=self._settings.seed, data_path=self._data_path)
+
+    def _open(self, model: SceneModel) -> _OpenRun:
+        return _OpenRun(model, self._log, self._index, self._motion)
+
+    def _compare(
+        self, run: VehicleRun, windows: Windows
+    ) -> tuple[tuple[HorizonError, ...], tuple[Array, Array], dict[float, Array]]:
+        horizons = [h for h in self._settings.horizons if len(windows.fits[h]) >= 2]
+        for horizon in self._settings.horizons:
+            if horizon not in horizons:
+                self._remarks.append(
+                    f"horizon {horizon:g} s: the log has fewer than two windows of that length."
+                )
+        grid = np.arange(1, N_CURVE + 1) * (horizons[-1] / N_CURVE)
+        errors: dict[float, list[Array]] = {horizon: [] for horizon in horizons}
+        ends: dict[float, list[tuple[Array, Array, float]]] = {h: [] for h in horizons}
+        squares, counts = np.zeros((len(grid), 6)), np.zeros(len(grid))
+        with self._progress("windows", len(windows.starts)) as on_window:
+            for index, start in enumerate(windows.starts.tolist()):
+                longest = max(h for h in horizons if index in windows.fits[h])
+                own = [h for h in horizons if h <= longest]
+                offsets = sorted({*own, *grid[grid <= longest + 1e-9].tolist()})
+                error, simulated, measured = self._run_window(run, start, offsets)
+                for horizon in own:
+                    row = offsets.index(horizon)
+                    errors[horizon].append(error[row])
+                    travelled = self._motion.path_length(start, start + horizon)
+                    ends[horizon].append((simulated[row], measured[row], travelled))
+                rows = [offsets.index(time) for time in grid[grid <= longest + 1e-9].tolist()]
+                squares[: len(rows)] += error[rows] ** 2
+                counts[: len(rows)] += 1
+                on_window()
+        summaries = tuple(
+            summarize_horizon(
+                horizon,
+                np.array(errors[horizon]),
+                np.array([row[0] for row in ends[horizon]]),
+                np.array([row[1] for row in ends[horizon]]),
+                np.array([row[2] for row in ends[horizon]]),
+                block=windows.block_length(horizon),
+                seed=self._settings.seed,
+            )
+            for horizon in horizons
+        )
+        curves = np.sqrt(squares / np.maximum(counts, 1)[:, None])
+        return summaries, (grid, curves), {h: np.array(rows) for h, rows in errors.items()}
+
+    def _run_window(
+        self, run: VehicleRun, start: float, offsets: Sequence[float]
+    ) -> tuple[Array, Array, Array]:
+        """Return the errors and the simulated and measured displacements, each (n, 6)."""
+        motion = self._motion
+        simulated = run.run(start, offsets)
+        times, begin = start + np.array(offsets), np.full(len(offsets), start)
+        positions, quaternions = motion.positions(times), motion.quaternions(times)
+        error = relative_motion(simulated.positions, simulated.quaternions, positions, quaternions)
+        first = motion.positions(begin), motion.quaternions(begin)
+        return (
+            error,
+            relative_motion(simulated.positions, simulated.quaternions, *first),
+            relative_motion(positions, quaternions, *first),
+        )
+
+    def _measure_residuals(self, run: VehicleRun) -> StepResiduals | None:
+        commands = run.commands
+        times, _ = choose_steps(self._motion, commands.start, commands.end)
+        with self._progress("one-step residuals", len(times)) as on_step:
+            return measure_residuals(run, commands.start, commands.end, on_step)
+
+    def _compare_sensors(self, windows: Windows) -> tuple[SensorResidual, ...]:
+        if not self._log.sensors:
+            return ()
+        with Simulation(self._model, is_blind=True) as simulation:
+            comparison = SensorComparison(simulation, self._log.sensors, self._name)
+            if comparison.is_empty:
+                self._remarks.append("no sensor of the log has a counterpart in the scene.")
+                return ()
+            run = self._make_run(simulation)
+            with self._progress("sensors", len(windows.starts)) as on_window:
+                return comparison.compare_windows(
+                    run, windows, self._settings.horizons[0], on_window
+                )
+
+    def _make_run(self, simulation: Simulation) -> VehicleRun:
+        return make_run(simulation, self._log, self._index, self._motion)
+
+    def _attribute(self, windows: Windows) -> Attribution:
+        dynamics = self._model.dynamics[self._index]
+        root = self._model.robots[self._index].root
+        coefficients = list_coefficients(dynamics, root)
+        horizon = self._settings.horizons[0]
+        weights = np.array([1.0] * 3 + [self._radius()] * 3)
+        ends = windows.starts + horizon
+        measured = self._motion.twists(ends) * weights
+
+        def run_windows(changes: Sequence[tuple[Coefficient, float]]) -> Array:
+            new_dynamics = dynamics
+            for coefficient, factor in changes:
+                new_dynamics = coefficient.change(new_dynamics, factor)
+            scene = scale_coefficient(self._scene, self._index, dynamics, new_dynamics)
+            model = self._compile(scene) if changes else self._model
+            with self._open(model) as run:
+                twists = [run.run(start, [horizon]).twists[0] for start in windows.starts.tolist()]
+            return np.array(twists) * weights
+
+        with self._progress("attribution", len(coefficients) + 4) as on_run:
+            return attribute_residual(
+                measured,
+                coefficients,
+                run_windows,
+                duration=horizon,
+                block=windows.block_length(horizon),
+                seed=self._settings.seed,
+                on_run=on_run,
+            )
+
+    def _radius(self) -> float:
+        """Return the root mean square of the radii of gyration about the base's axes [m]."""
+        model = self._model.engine_model
+        from ..model.body_names import vehicle_body
+
+        body = model.body(vehicle_body(self._index, self._model.robots[self._index].root)).id
+        mass, inertia = float(model.body_mass[body]), model.body_inertia[body]
+        return float(np.sqrt(float(inertia.sum()) / (3.0 * mass)))
+
+
+class _OpenRun:
+    """A simulation that is closed after a block."""
+
+    def __init__(self, model: SceneModel, log: VehicleLog, index: int, motion: LogMotion) -> None:
+        self._simulation = Simulation(model, is_blind=True)
+        self._arguments = (log, index, motion)
+
+    def __enter__(self) -> VehicleRun:
+        return make_run(self._simulation, *self._arguments)
+
+    def __exit__(self, *arguments: object) -> None:
+        self._simulation.close()
+
+
+def make_run(simulation: Simulation, log: VehicleLog, index: int, motion: LogMotion) -> VehicleRun:
+    """Return the vehicle of a simulation with the commands of a log."""
+    model = simulation.world.model
+    vehicle = simulation.world.vehicles[index]
+    lags = [thruster.time_constant for thruster in model.dynamics[index].thrusters]
+    commands = VehicleCommands(log, vehicle, lags)
+    return VehicleRun(simulation, vehicle.name, motion, commands)
+
+
+def _check_motion(log: VehicleLog):  # type: ignore[no-untyped-def]
+    motion = log.motion
+    if motion is None or len(motion.times) < 2:
+        raise BadSetting(
+            f"{log.path} has no motion of the vehicle; expected poses (odometry, or position and "
+            "orientation)."
+        )
+    n_missing = int((~np.isfinite(motion.positions)).any(axis=1).sum())
+    if n_missing:
+        raise BadSetting(
+            f"{log.path} has {n_missing} of {len(motion.times)} positions without all three "
+            "coordinates; the gap needs them."
+        )
+    return motion
+
+
+def _check_frame(log: VehicleLog, model: SceneModel) -> None:
+    down = float(model.scene.world_from_localized.rotation[2, 2])
+    if log.format in AUTOPILOT_FORMATS and down > -0.99:
+        raise BadSetting(
+            f"{log.path} has the frame north-east-down, but z of the scene's frame L does not "
+            "point down. Set <offsetr> of <simParams> to M_PI, 0, -M_PI_2."
+        )
