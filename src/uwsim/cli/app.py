@@ -93,6 +93,15 @@ COMMANDS: dict[str, Command] = {
             'uwsim envelope visibility-moving --over fog --until "status == lost" --algorithm orb',
         ),
     ),
+    "gap": Command(
+        module="gap",
+        function="gap",
+        summary="Measure the error of the simulation of a real vehicle's log.",
+        examples=(
+            "uwsim gap dive.mcap bluerov2-scene -o dive-gap",
+            "uwsim gap dive.csv pool.xml --mapping dive.toml --horizons 1,5,20",
+        ),
+    ),
     "info": Command(
         module="info",
         function="info",

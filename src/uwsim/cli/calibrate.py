@@ -155,8 +155,8 @@ def calibrate(
 
 def print_example(directory: Path) -> None:
     """Write the example and print how to use it."""
-    from ..calibration.example.write_example import SETUP_NAME, write_example
     from ..base.files.staging import stage_directory
+    from ..calibration.example.write_example import SETUP_NAME, write_example
 
     if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
         raise BadSetting(f"--example {directory}: not an empty directory.")

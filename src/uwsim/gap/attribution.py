@@ -37,8 +37,12 @@ MAX_CAUSES = 3
 """The greatest number of coefficients that are named."""
 MIN_SHARE = 0.05
 """The least share of the first residual that a further coefficient explains."""
-ALIKE = 0.95
+MIN_CORRELATION = 0.95
 """The correlation of two effects from which the windows cannot tell them apart."""
+MIN_RESIDUAL = 1e-4
+"""The root mean square of the residual below which nothing is attributed [m/s]."""
+MIN_SPEED = 0.005
+"""The root mean square of the velocity along an axis for a ratio [m/s]."""
 N_RESAMPLES = 500
 """The number of resamples of the windows."""
 FACTOR_LIMITS = (0.05, 20.0)
@@ -65,7 +69,7 @@ class Cause:
     """The share of the first residual's square that the factor removes [0..1]."""
     confidence: float | None
     """The share of resamples in which the coefficient explains the most [0..1]."""
-    alike: tuple[str, ...]
+    equivalents: tuple[str, ...]
     """The names of coefficients whose effects the windows cannot tell apart from it."""
 
 
@@ -83,12 +87,15 @@ class Attribution:
     """The same after all causes are corrected [m/s]."""
     causes: tuple[Cause, ...]
     """The causes, the first explains the most."""
+    speed_ratios: tuple[float | None, ...]
+    """The slope of simulated over measured velocities at the ends of the windows, by axis; None:
+    the vehicle hardly moved along the axis."""
     shares: tuple[tuple[str, float, float], ...]
     """The name, the share of the residual and the factor of each coefficient alone, by share."""
 
 
 def attribute_residual(
-    measured: Array,
+    measurements: Array,
     coefficients: Sequence[Coefficient],
     run_windows: RunWindows,
     *,
@@ -100,7 +107,7 @@ def attribute_residual(
     """Find the coefficients that explain the residual.
 
     Args:
-        measured: the measured twists at the ends of the windows, weighted, (n, 6) [m/s].
+        measurements: the measured twists at the ends of the windows, weighted, (n, 6) [m/s].
         coefficients: the coefficients.
         run_windows: runs the windows with coefficients scaled.
         duration: the length of the windows [s].
@@ -119,40 +126,44 @@ def attribute_residual(
         (simulate([(coefficient, 1.0 + coefficient.step)]) - base) / coefficient.step
         for coefficient in coefficients
     ]
-    residual = base - measured
+    residual = base - measurements
     first_square = _square(residual)
     causes: list[Cause] = []
     changes: list[tuple[Coefficient, float]] = []
-    alone = _list_shares(residual, coefficients, effects)
-    while len(causes) < MAX_CAUSES and first_square > 0.0:
-        named = {cause.coefficient.key for cause in causes}
-        open_indices = [i for i, c in enumerate(coefficients) if c.key not in named]
+    shares_alone = _list_shares(residual, coefficients, effects)
+    is_small = first_square <= len(measurements) * MIN_RESIDUAL**2
+    while len(causes) < MAX_CAUSES and not is_small:
+        used_keys = {cause.coefficient.key for cause in causes}
+        open_indices = [i for i, c in enumerate(coefficients) if c.key not in used_keys]
         if not open_indices:
             break
-        best = max(open_indices, key=lambda i: _share(residual, effects[i]))
-        if _share(residual, effects[best]) * _square(residual) < MIN_SHARE * first_square:
+        index = max(open_indices, key=lambda i: _share(residual, effects[i]))
+        if _share(residual, effects[index]) * _square(residual) < MIN_SHARE * first_square:
             break
         factor, new_residual = _refine(
-            coefficients[best], effects[best], residual, measured, changes, simulate
+            coefficients[index], effects[index], residual, measurements, changes, simulate
         )
         removed_share = (_square(residual) - _square(new_residual)) / first_square
         if removed_share < MIN_SHARE:
             break
         resamples = _resample(residual, effects, open_indices, block, seed, len(causes))
-        slope = -_dot(effects[best], residual) / _square(effects[best])
+        slope = -_dot(effects[index], residual) / _square(effects[index])
         causes.append(
-            _make_cause(coefficients, effects, best, factor, slope, removed_share, resamples)
+            _make_cause(coefficients, effects, index, factor, slope, removed_share, resamples)
         )
-        changes.append((coefficients[best], factor))
+        changes.append((coefficients[index], factor))
         residual = new_residual
-    n_windows = len(measured)
+    n_windows = len(measurements)
     return Attribution(
         duration=duration,
         n_windows=n_windows,
         residual=float(np.sqrt(first_square / n_windows)),
         remainder=float(np.sqrt(_square(residual) / n_windows)),
         causes=tuple(causes),
-        shares=alone,
+        speed_ratios=tuple(
+            _fit_ratio(base[:, axis], measurements[:, axis]) for axis in range(base.shape[1])
+        ),
+        shares=shares_alone,
     )
 
 
@@ -160,31 +171,31 @@ def _refine(
     coefficient: Coefficient,
     effect: Array,
     residual: Array,
-    measured: Array,
+    measurements: Array,
     changes: Sequence[tuple[Coefficient, float]],
     simulate: RunWindows,
 ) -> tuple[float, Array]:
     """Return the factor of a coefficient and the residual with it, by Gauss-Newton steps."""
-    factor, best = 1.0, residual
+    factor, best_residual = 1.0, residual
     for _ in range(N_REFINEMENTS):
-        step = -_dot(effect, best) / _square(effect)
+        step = -_dot(effect, best_residual) / _square(effect)
         new_factor = min(max(factor + step, FACTOR_LIMITS[0]), FACTOR_LIMITS[1])
         if abs(new_factor - factor) < 1e-4:
             break
         twists = simulate([*changes, (coefficient, new_factor)])
-        new_residual = twists - measured
-        if _square(new_residual) >= _square(best):
+        new_residual = twists - measurements
+        if _square(new_residual) >= _square(best_residual):
             break
         # the slope between the two factors is the effect at the new one (a secant step)
-        effect = (new_residual - best) / (new_factor - factor)
-        factor, best = new_factor, new_residual
-    return factor, best
+        effect = (new_residual - best_residual) / (new_factor - factor)
+        factor, best_residual = new_factor, new_residual
+    return factor, best_residual
 
 
 def _make_cause(
     coefficients: Sequence[Coefficient],
     effects: Sequence[Array],
-    best: int,
+    index: int,
     factor: float,
     slope: float,
     share: float,
@@ -193,25 +204,25 @@ def _make_cause(
     low = high = confidence = None
     if resamples is not None:
         slopes, winners = resamples
-        ordered = np.sort(slopes[:, best])
-        n = len(ordered)
+        sorted_slopes = np.sort(slopes[:, index])
+        n = len(sorted_slopes)
         # the spread of the linear estimates about theirs, around the refined factor
-        low = factor + float(ordered[int(0.025 * n)]) - slope
-        high = factor + float(ordered[int(0.975 * n) - 1]) - slope
-        confidence = float((winners == best).mean())
-    alike = tuple(
+        low = factor + float(sorted_slopes[int(0.025 * n)]) - slope
+        high = factor + float(sorted_slopes[int(0.975 * n) - 1]) - slope
+        confidence = float((winners == index).mean())
+    equivalents = tuple(
         coefficients[i].name
         for i, effect in enumerate(effects)
-        if i != best and _correlation(effect, effects[best]) > ALIKE
+        if i != index and _correlation(effect, effects[index]) > MIN_CORRELATION
     )
     return Cause(
-        coefficient=coefficients[best],
+        coefficient=coefficients[index],
         factor=factor,
         low=low,
         high=high,
         share=share,
         confidence=confidence,
-        alike=alike,
+        equivalents=equivalents,
     )
 
 
@@ -263,6 +274,13 @@ def _share(residual: Array, effect: Array) -> float:
 def _correlation(a: Array, b: Array) -> float:
     square = _square(a) * _square(b)
     return abs(_dot(a, b)) / float(np.sqrt(square)) if square > 0.0 else 0.0
+
+
+def _fit_ratio(predictions: Array, measurements: Array) -> float | None:
+    square = _square(measurements)
+    if square < len(measurements) * MIN_SPEED**2:
+        return None
+    return _dot(predictions, measurements) / square
 
 
 def _dot(a: Array, b: Array) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ..scene.hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics
 from ..scene.spec import SceneSpec
@@ -143,7 +144,7 @@ def scale_coefficient(
     return replace(scene, vehicles=tuple(vehicles))
 
 
-def _list_settings(old: VehicleHydrodynamics, new: VehicleHydrodynamics) -> dict[str, str]:
+def _list_settings(old_set: VehicleHydrodynamics, new_set: VehicleHydrodynamics) -> dict[str, str]:
     """Return the paths and texts of all values that differ."""
     settings: dict[str, str] = {}
     names = {
@@ -152,9 +153,9 @@ def _list_settings(old: VehicleHydrodynamics, new: VehicleHydrodynamics) -> dict
         "fin": ("name", {"area"}),
     }
     parts = (
-        ("body", old.bodies, new.bodies),
-        ("thruster", old.thrusters, new.thrusters),
-        ("fin", old.fins, new.fins),
+        ("body", old_set.bodies, new_set.bodies),
+        ("thruster", old_set.thrusters, new_set.thrusters),
+        ("fin", old_set.fins, new_set.fins),
     )
     for kind, old_parts, new_parts in parts:
         label, fields = names[kind]
@@ -165,15 +166,16 @@ def _list_settings(old: VehicleHydrodynamics, new: VehicleHydrodynamics) -> dict
                 if value != getattr(old_part, name):
                     numbers = value if isinstance(value, tuple) else (value,)
                     settings[f"{place}.{_camel(name)}"] = " ".join(map(repr, numbers))
-            if kind == "body" and old_part.centre_of_buoyancy != new_part.centre_of_buoyancy:
-                for axis, number in zip("xyz", new_part.centre_of_buoyancy, strict=True):
-                    settings[f"{place}.centreOfBuoyancy.{axis}"] = repr(number)
+    for old_body, body in zip(old_set.bodies, new_set.bodies, strict=True):
+        if old_body.centre_of_buoyancy != body.centre_of_buoyancy:
+            for axis, number in zip("xyz", body.centre_of_buoyancy, strict=True):
+                settings[f"body[{body.link}].centreOfBuoyancy.{axis}"] = repr(number)
     return settings
 
 
 def _camel(name: str) -> str:
-    first, *others = name.split("_")
-    return first + "".join(word.capitalize() for word in others)
+    first, *later_words = name.split("_")
+    return first + "".join(word.capitalize() for word in later_words)
 
 
 def _entry(numbers: tuple[float, ...], axis: int) -> float:
@@ -200,9 +202,10 @@ def _replace_body(
 def _scale_body(link: str, axis: int, fields: tuple[str, ...]) -> Change:
     def scale(dynamics: VehicleHydrodynamics, factor: float) -> VehicleHydrodynamics:
         def scale_fields(body: BodyHydrodynamics) -> BodyHydrodynamics:
-            return replace(
-                body, **{name: _scale_entry(getattr(body, name), axis, factor) for name in fields}
-            )
+            new_values: dict[str, Any] = {
+                name: _scale_entry(getattr(body, name), axis, factor) for name in fields
+            }
+            return replace(body, **new_values)
 
         return _replace_body(dynamics, link, scale_fields)
 

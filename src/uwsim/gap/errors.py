@@ -20,9 +20,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from ..base.geometry import Array
 from ..base.rng import stream
+
+Indices = npt.NDArray[np.int64]
+"""The indices of windows in resamples."""
 
 AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 """The names of the degrees of freedom."""
@@ -74,21 +78,21 @@ class HorizonError:
     """The errors of the degrees of freedom."""
     distance: Estimate
     """The root mean square of the error of the position [m]."""
-    travelled: float
+    path_length: float
     """The mean distance that the vehicle travelled in a window [m]."""
 
     @property
     def share(self) -> float | None:
         """The error of the position over the distance travelled; None below 1 cm."""
-        return self.distance.value / self.travelled if self.travelled > 0.01 else None
+        return self.distance.value / self.path_length if self.path_length > 0.01 else None
 
 
 def summarize_horizon(
     horizon: float,
     errors: Array,
-    simulated: Array,
-    measured: Array,
-    travelled: Array,
+    predictions: Array,
+    measurements: Array,
+    path_length: Array,
     *,
     block: int,
     seed: int,
@@ -98,9 +102,9 @@ def summarize_horizon(
     Args:
         horizon: the horizon [s].
         errors: the errors of the windows, (n, 6) [m, rad].
-        simulated: the simulated displacements from the beginning of each window, (n, 6).
-        measured: the measured displacements, (n, 6).
-        travelled: the distance travelled in each window, (n,) [m].
+        predictions: the simulated displacements from the beginning of each window, (n, 6).
+        measurements: the measured displacements, (n, 6).
+        path_length: the distance travelled in each window, (n,) [m].
         block: the number of successive windows that overlap.
         seed: the seed of the resamples.
     """
@@ -112,7 +116,7 @@ def summarize_horizon(
             unit="m" if index < 3 else "rad",
             rms=_estimate(errors[:, index], _rms, resamples),
             bias=_estimate(errors[:, index], _mean, resamples),
-            ratio=_fit_ratio(simulated[:, index], measured[:, index]),
+            ratio=_fit_ratio(predictions[:, index], measurements[:, index]),
         )
         for index, name in enumerate(AXES)
     )
@@ -122,22 +126,21 @@ def summarize_horizon(
         n_blocks=len(errors) / block,
         axes=axes,
         distance=_estimate(distances, _rms, resamples),
-        travelled=float(travelled.mean()),
+        path_length=float(path_length.mean()),
     )
 
 
-def _draw_blocks(n: int, block: int, seed: int, name: str) -> Array | None:
+def _draw_blocks(n: int, block: int, seed: int, name: str) -> Indices | None:
     """Return the indices of resamples of blocks, (N_RESAMPLES, n); None for too few blocks."""
     if n < MIN_BLOCKS * block:
         return None
     n_blocks = -(-n // block)
     starts = stream(seed, name).integers(0, n - block + 1, (N_RESAMPLES, n_blocks))
-    indices: Array = (starts[:, :, None] + np.arange(block)).reshape(N_RESAMPLES, -1)[:, :n]
-    return indices
+    return (starts[:, :, None] + np.arange(block)).reshape(N_RESAMPLES, -1)[:, :n]
 
 
 def _estimate(
-    values: Array, statistic: Callable[[Array], Array], resamples: Array | None
+    values: Array, statistic: Callable[[Array], Array], resamples: Indices | None
 ) -> Estimate:
     value = float(statistic(values[None])[0])
     if resamples is None:
@@ -158,8 +161,8 @@ def _mean(rows: Array) -> Array:
     return mean
 
 
-def _fit_ratio(simulated: Array, measured: Array) -> float | None:
-    square = float((measured * measured).sum())
-    if square <= len(measured) * 1e-4:  # 1 cm or 0.6 degrees
+def _fit_ratio(predictions: Array, measurements: Array) -> float | None:
+    square = float((measurements * measurements).sum())
+    if square <= len(measurements) * 1e-4:  # 1 cm or 0.6 degrees
         return None
-    return float((simulated * measured).sum()) / square
+    return float((predictions * measurements).sum()) / square

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..errors import BadSetting
-from ..logs import VehicleLog
+from ..logs import MotionSeries, VehicleLog
+from ..model.body_names import vehicle_body
 from ..model.scene_model import SceneModel
 from ..physics.compile_scene import compile_scene
 from ..scene.spec import SceneSpec
@@ -29,6 +30,10 @@ from .windows import Windows, choose_windows
 
 N_CURVE = 80
 """The number of points of the curves of the error over the horizon."""
+MAX_TRACKS = 40
+"""The greatest number of windows whose tracks are kept."""
+MAIN_HORIZON = 5.0
+"""The horizon to which the one of the verdict is nearest [s]."""
 AUTOPILOT_FORMATS = ("bin", "tlog")
 """The formats whose frames are north-east-down always."""
 
@@ -63,13 +68,17 @@ class Gap:
     curves: Array
     """The root mean square of the error over the horizon, (m, 6) [m, rad]."""
     window_errors: dict[float, Array]
-    """By horizon: the errors of its windows, (n, 6) [m, rad]."""
+    """The errors of the windows of each horizon, (n, 6) [m, rad]."""
+    tracks: tuple[tuple[Array, Array], ...]
+    """The measured and the simulated positions of windows that do not overlap, (m, 3) [m]."""
     residuals: StepResiduals | None
     """The one-step residuals; None: the log is too short."""
     sensors: tuple[SensorResidual, ...]
     """The residuals of sensors."""
     attribution: Attribution | None
     """The attribution to coefficients; None: not requested."""
+    points_down: bool
+    """True if z of the scene's frame L points down."""
     remarks: tuple[str, ...]
     """The remarks about the log and the comparison."""
 
@@ -131,6 +140,7 @@ class _Measurement:
                 self._motion, commands.start, commands.end, settings.horizons, settings.n_windows
             )
             horizons, curves, errors = self._compare(run, windows)
+            tracks = self._draw_tracks(run, windows, horizons)
             residuals = self._measure_residuals(run)
         sensors = self._compare_sensors(windows)
         attribution = self._attribute(windows) if settings.has_attribution else None
@@ -148,9 +158,11 @@ class _Measurement:
             curve_times=curve_times,
             curves=curve_values,
             window_errors=errors,
+            tracks=tracks,
             residuals=residuals,
             sensors=sensors,
             attribution=attribution,
+            points_down=_points_down(self._model),
             remarks=tuple(self._remarks),
         )
 
@@ -169,22 +181,22 @@ class _Measurement:
                 self._remarks.append(
                     f"horizon {horizon:g} s: the log has fewer than two windows of that length."
                 )
-        grid = np.arange(1, N_CURVE + 1) * (horizons[-1] / N_CURVE)
+        grid: Array = np.arange(1, N_CURVE + 1, dtype=np.float64) * (horizons[-1] / N_CURVE)
         errors: dict[float, list[Array]] = {horizon: [] for horizon in horizons}
         ends: dict[float, list[tuple[Array, Array, float]]] = {h: [] for h in horizons}
         squares, counts = np.zeros((len(grid), 6)), np.zeros(len(grid))
         with self._progress("windows", len(windows.starts)) as on_window:
             for index, start in enumerate(windows.starts.tolist()):
-                longest = max(h for h in horizons if index in windows.fits[h])
-                own = [h for h in horizons if h <= longest]
-                offsets = sorted({*own, *grid[grid <= longest + 1e-9].tolist()})
-                error, simulated, measured = self._run_window(run, start, offsets)
-                for horizon in own:
+                max_horizon = max(h for h in horizons if index in windows.fits[h])
+                window_horizons = [h for h in horizons if h <= max_horizon]
+                offsets = sorted({*window_horizons, *grid[grid <= max_horizon + 1e-9].tolist()})
+                error, predictions, measurements = self._run_window(run, start, offsets)
+                for horizon in window_horizons:
                     row = offsets.index(horizon)
                     errors[horizon].append(error[row])
-                    travelled = self._motion.path_length(start, start + horizon)
-                    ends[horizon].append((simulated[row], measured[row], travelled))
-                rows = [offsets.index(time) for time in grid[grid <= longest + 1e-9].tolist()]
+                    path_length = self._motion.path_length(start, start + horizon)
+                    ends[horizon].append((predictions[row], measurements[row], path_length))
+                rows = [offsets.index(time) for time in grid[grid <= max_horizon + 1e-9].tolist()]
                 squares[: len(rows)] += error[rows] ** 2
                 counts[: len(rows)] += 1
                 on_window()
@@ -200,7 +212,7 @@ class _Measurement:
             )
             for horizon in horizons
         )
-        curves = np.sqrt(squares / np.maximum(counts, 1)[:, None])
+        curves: Array = np.sqrt(squares / np.maximum(counts, 1)[:, None])
         return summaries, (grid, curves), {h: np.array(rows) for h, rows in errors.items()}
 
     def _run_window(
@@ -208,16 +220,33 @@ class _Measurement:
     ) -> tuple[Array, Array, Array]:
         """Return the errors and the simulated and measured displacements, each (n, 6)."""
         motion = self._motion
-        simulated = run.run(start, offsets)
+        predictions = run.run(start, offsets)
         times, begin = start + np.array(offsets), np.full(len(offsets), start)
         positions, quaternions = motion.positions(times), motion.quaternions(times)
-        error = relative_motion(simulated.positions, simulated.quaternions, positions, quaternions)
+        error = relative_motion(
+            predictions.positions, predictions.quaternions, positions, quaternions
+        )
         first = motion.positions(begin), motion.quaternions(begin)
         return (
             error,
-            relative_motion(simulated.positions, simulated.quaternions, *first),
+            relative_motion(predictions.positions, predictions.quaternions, *first),
             relative_motion(positions, quaternions, *first),
         )
+
+    def _draw_tracks(
+        self, run: VehicleRun, windows: Windows, horizons: Sequence[HorizonError]
+    ) -> tuple[tuple[Array, Array], ...]:
+        horizon = choose_main_horizon(horizons).horizon
+        offsets = np.arange(0.0, horizon + 1e-9, max(0.1, horizon / 50.0))
+        tracks: list[tuple[Array, Array]] = []
+        end = -np.inf
+        for index in windows.fits[horizon]:
+            start = float(windows.starts[index])
+            if start >= end - 1e-6 and len(tracks) < MAX_TRACKS:
+                end = start + horizon
+                simulated_motion = run.run(start, offsets.tolist())
+                tracks.append((self._motion.positions(start + offsets), simulated_motion.positions))
+        return tuple(tracks)
 
     def _measure_residuals(self, run: VehicleRun) -> StepResiduals | None:
         commands = run.commands
@@ -249,7 +278,7 @@ class _Measurement:
         horizon = self._settings.horizons[0]
         weights = np.array([1.0] * 3 + [self._radius()] * 3)
         ends = windows.starts + horizon
-        measured = self._motion.twists(ends) * weights
+        measurements = self._motion.twists(ends) * weights
 
         def run_windows(changes: Sequence[tuple[Coefficient, float]]) -> Array:
             new_dynamics = dynamics
@@ -259,11 +288,12 @@ class _Measurement:
             model = self._compile(scene) if changes else self._model
             with self._open(model) as run:
                 twists = [run.run(start, [horizon]).twists[0] for start in windows.starts.tolist()]
-            return np.array(twists) * weights
+            velocities: Array = np.array(twists) * weights
+            return velocities
 
         with self._progress("attribution", len(coefficients) + 4) as on_run:
             return attribute_residual(
-                measured,
+                measurements,
                 coefficients,
                 run_windows,
                 duration=horizon,
@@ -275,8 +305,6 @@ class _Measurement:
     def _radius(self) -> float:
         """Return the root mean square of the radii of gyration about the base's axes [m]."""
         model = self._model.engine_model
-        from ..model.body_names import vehicle_body
-
         body = model.body(vehicle_body(self._index, self._model.robots[self._index].root)).id
         mass, inertia = float(model.body_mass[body]), model.body_inertia[body]
         return float(np.sqrt(float(inertia.sum()) / (3.0 * mass)))
@@ -296,6 +324,11 @@ class _OpenRun:
         self._simulation.close()
 
 
+def choose_main_horizon(horizons: Sequence[HorizonError]) -> HorizonError:
+    """Return the errors at the horizon of the verdict and of the tracks."""
+    return min(horizons, key=lambda error: abs(error.horizon - MAIN_HORIZON))
+
+
 def make_run(simulation: Simulation, log: VehicleLog, index: int, motion: LogMotion) -> VehicleRun:
     """Return the vehicle of a simulation with the commands of a log."""
     model = simulation.world.model
@@ -305,7 +338,7 @@ def make_run(simulation: Simulation, log: VehicleLog, index: int, motion: LogMot
     return VehicleRun(simulation, vehicle.name, motion, commands)
 
 
-def _check_motion(log: VehicleLog):  # type: ignore[no-untyped-def]
+def _check_motion(log: VehicleLog) -> MotionSeries:
     motion = log.motion
     if motion is None or len(motion.times) < 2:
         raise BadSetting(
@@ -322,9 +355,12 @@ def _check_motion(log: VehicleLog):  # type: ignore[no-untyped-def]
 
 
 def _check_frame(log: VehicleLog, model: SceneModel) -> None:
-    down = float(model.scene.world_from_localized.rotation[2, 2])
-    if log.format in AUTOPILOT_FORMATS and down > -0.99:
+    if log.format in AUTOPILOT_FORMATS and not _points_down(model):
         raise BadSetting(
             f"{log.path} has the frame north-east-down, but z of the scene's frame L does not "
             "point down. Set <offsetr> of <simParams> to M_PI, 0, -M_PI_2."
         )
+
+
+def _points_down(model: SceneModel) -> bool:
+    return float(model.scene.world_from_localized.rotation[2, 2]) < -0.99

@@ -60,11 +60,11 @@ def measure_residuals(
     times, interval = choose_steps(motion, start, end)
     if len(times) < MIN_STEPS:
         return None
-    simulated = np.empty((len(times), 6))
+    predictions = np.empty((len(times), 6))
     for index, time in enumerate(times.tolist()):
-        simulated[index] = run.run(time, [interval]).twists[0]
+        predictions[index] = run.run(time, [interval]).twists[0]
         on_step()
-    accelerations = (simulated - motion.twists(times + interval)) / interval
+    accelerations = (predictions - motion.twists(times + interval)) / interval
     frequencies, densities = estimate_spectrum(accelerations, interval)
     return StepResiduals(
         interval=interval,
@@ -80,12 +80,12 @@ def choose_steps(motion: LogMotion, start: float, end: float) -> tuple[Array, fl
     period = float(np.median(np.diff(motion.times)))
     interval = max(1, math.ceil(MIN_INTERVAL / period - 1e-6)) * period
     first = max(start, float(motion.times[0]))
-    last = min(end, float(motion.times[-1]))
-    edges = [first, *(time for gap in motion.gaps for time in gap), last]
+    end_time = min(end, float(motion.times[-1]))
+    edges = [first, *(time for gap in motion.gaps for time in gap), end_time]
     parts = [
-        (max(low, first), min(high, last))
+        (max(low, first), min(high, end_time))
         for low, high in zip(edges[::2], edges[1::2], strict=True)
-        if min(high, last) > max(low, first)
+        if min(high, end_time) > max(low, first)
     ]
     if not parts:
         return np.zeros(0), interval
@@ -94,7 +94,8 @@ def choose_steps(motion: LogMotion, start: float, end: float) -> tuple[Array, fl
     if n_steps > MAX_STEPS:
         low += 0.5 * (n_steps - MAX_STEPS) * interval
         n_steps = MAX_STEPS
-    return low + interval * np.arange(n_steps), interval
+    times: Array = low + interval * np.arange(n_steps, dtype=np.float64)
+    return times, interval
 
 
 def estimate_spectrum(values: Array, interval: float) -> tuple[Array, Array]:

@@ -112,18 +112,18 @@ class SensorComparison:
         times = np.array([time for time, _ in readings]) - origin + start
         values = np.array([row for _, row in readings])
         series = self._sensors[name]
-        inside = (series.times >= max(times[0], start)) & (series.times <= times[-1])
+        is_inside = (series.times >= max(times[0], start)) & (series.times <= times[-1])
         names = self._names(name)
         columns = []
         for column in names:
-            simulated = values[:, names[column]]
-            measured = series.values[inside, series.names.index(column)]
-            valid = np.isfinite(simulated)
-            if valid.sum() < 2:
-                columns.append(np.full((2, int(inside.sum())), np.nan))
+            predictions = values[:, names[column]]
+            measurements = series.values[is_inside, series.names.index(column)]
+            is_valid = np.isfinite(predictions)
+            if is_valid.sum() < 2:
+                columns.append(np.full((2, int(is_inside.sum())), np.nan))
                 continue
-            at_times = np.interp(series.times[inside], times[valid], simulated[valid])
-            columns.append(np.array([at_times - measured, measured]))
+            at_times = np.interp(series.times[is_inside], times[is_valid], predictions[is_valid])
+            columns.append(np.array([at_times - measurements, measurements]))
         self._residuals[name].append(np.array(columns))
 
     def _names(self, name: str) -> dict[str, int]:
@@ -145,11 +145,11 @@ class SensorComparison:
         table = np.concatenate(self._residuals[name], axis=2)  # (columns, 2, readings)
         series, rows = self._sensors[name], []
         for index, column in enumerate(self._names(name)):
-            residuals, measured = table[index]
-            valid = np.isfinite(residuals)
-            if valid.sum() < MIN_READINGS:
+            residuals, measurements = table[index]
+            is_valid = np.isfinite(residuals)
+            if is_valid.sum() < MIN_READINGS:
                 continue
-            residuals, measured = residuals[valid], measured[valid]
+            residuals, measurements = residuals[is_valid], measurements[is_valid]
             rows.append(
                 SensorResidual(
                     sensor=name,
@@ -159,7 +159,7 @@ class SensorComparison:
                     n_readings=len(residuals),
                     rms=math.sqrt(float((residuals * residuals).mean())),
                     bias=float(residuals.mean()),
-                    measured_deviation=float(measured.std()),
+                    measured_deviation=float(measurements.std()),
                 )
             )
         return rows
@@ -180,7 +180,7 @@ def match_topics(
         ]
         own_topics = [topic for topic in candidates if vehicle in topic.split("/")] or candidates
         same_names = [topic for topic in own_topics if topic.rsplit("/", 1)[-1] == name]
-        chosen = same_names or own_topics
-        if len(chosen) == 1:
-            matches[name] = chosen[0]
+        matching_topics = same_names or own_topics
+        if len(matching_topics) == 1:
+            matches[name] = matching_topics[0]
     return matches

@@ -26,7 +26,7 @@ class GapSettings:
     seed: int = 0
     """The seed of the resamples of intervals and of the simulated sensors."""
     has_attribution: bool = True
-    """True to find the coefficient that explains the error."""
+    """The choice whether to search for the coefficient that explains the error."""
 
     def __post_init__(self) -> None:
         if not 2 <= self.n_windows <= MAX_WINDOWS:

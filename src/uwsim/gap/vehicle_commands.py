@@ -62,8 +62,9 @@ class VehicleCommands:
 
     @property
     def start(self) -> float:
-        """The time of the first command of the kind that has its first last [s]."""
-        return max(float(part.times[0]) for part, _ in self._series)
+        """The first time at which the commands before it determine the rotors [s]."""
+        warm_up = WARM_UP_LAGS * max(self._time_constants, default=0.0)
+        return max(float(part.times[0]) for part, _ in self._series) + warm_up
 
     @property
     def end(self) -> float:
@@ -90,18 +91,18 @@ class VehicleCommands:
 
     def _rotor_speeds(self, series: CommandSeries, values: Array, time: float) -> Array:
         lag = max(self._time_constants, default=0.0)
-        first, last = np.searchsorted(series.times, [time - WARM_UP_LAGS * lag, time])
+        first, n_commands = np.searchsorted(series.times, [time - WARM_UP_LAGS * lag, time])
         first = max(int(first) - 1, 0)
-        speeds = np.clip(values[first], -1.0, 1.0).copy()
-        for index in range(first, max(int(last), first + 1)):
-            is_last = index + 1 >= int(last)
+        speeds = [min(max(speed, -1.0), 1.0) for speed in values[first].tolist()]
+        for index in range(first, max(int(n_commands), first + 1)):
+            is_last = index + 1 >= int(n_commands)
             end = time if is_last else float(series.times[index + 1])
             duration = max(0.0, end - float(series.times[index]))
-            target = np.clip(values[index], -1.0, 1.0)
             for thruster, constant in enumerate(self._time_constants):
                 share = 1.0 - math.exp(-duration / constant) if constant > 0.0 else 1.0
-                speeds[thruster] += share * (target[thruster] - speeds[thruster])
-        return speeds
+                target = min(max(float(values[index, thruster]), -1.0), 1.0)
+                speeds[thruster] += share * (target - speeds[thruster])
+        return np.array(speeds)
 
 
 def _apply_thrusters(vehicle: SceneVehicle, values: Array) -> None:
@@ -151,8 +152,8 @@ def _sort_columns(series: CommandSeries, names: tuple[str, ...]) -> Array:
             "file."
         )
     unknown_names = [name for name in series.names if name not in names]
-    listed = ", ".join(map(repr, unknown_names[:MAX_LISTED]))
+    names_text = ", ".join(map(repr, unknown_names[:MAX_LISTED]))
     raise BadSetting(
-        f"The log has {series.kind} that the vehicle lacks: {listed}."
+        f"The log has {series.kind} that the vehicle lacks: {names_text}."
         f"{did_you_mean(unknown_names[0], names)} Known: {', '.join(names)}"
     )

@@ -22,8 +22,8 @@ class Windows:
     """The times at which windows begin, ascending, (n,) [s]."""
     spacing: float
     """The interval between windows [s]."""
-    fits: dict[float, Array]
-    """By horizon: the indices of the windows that have the log's motion to that horizon."""
+    fits: dict[float, tuple[int, ...]]
+    """The indices of the windows that have the log's motion to each horizon."""
 
     def block_length(self, horizon: float) -> int:
         """Return the number of successive windows of which the motions overlap."""
@@ -49,8 +49,8 @@ def choose_windows(
         BadSetting: the log is shorter than two windows of the shortest horizon.
     """
     first = max(start, float(motion.times[0]))
-    last = min(end, float(motion.times[-1]))
-    duration = last - first
+    end_time = min(end, float(motion.times[-1]))
+    duration = end_time - first
     if duration < 2.0 * horizons[0]:
         raise BadSetting(
             f"The log has {max(0.0, duration):.3g} s with both motion and commands; expected at "
@@ -59,7 +59,9 @@ def choose_windows(
     spacing = max(horizons[0], (duration - horizons[0]) / (n_max - 1))
     n_windows = int((duration - horizons[0]) / spacing + TIME_TOLERANCE) + 1
     times = first + spacing * np.arange(n_windows)
-    samples = motion.times[(motion.times >= first) & (motion.times <= last - horizons[0] + 1e-9)]
+    samples = motion.times[
+        (motion.times >= first) & (motion.times <= end_time - horizons[0] + 1e-9)
+    ]
     indices = np.clip(np.searchsorted(samples, times - TIME_TOLERANCE), 0, len(samples) - 1)
     starts = np.unique(samples[indices])
     starts = np.array([t for t in starts.tolist() if not motion.has_gap(t, t + horizons[0])])
@@ -69,13 +71,10 @@ def choose_windows(
             "shorter --horizons."
         )
     fits = {
-        horizon: np.array(
-            [
-                index
-                for index, t in enumerate(starts.tolist())
-                if t + horizon <= last + TIME_TOLERANCE and not motion.has_gap(t, t + horizon)
-            ],
-            dtype=np.int64,
+        horizon: tuple(
+            index
+            for index, t in enumerate(starts.tolist())
+            if t + horizon <= end_time + TIME_TOLERANCE and not motion.has_gap(t, t + horizon)
         )
         for horizon in horizons
     }

@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from ...base.files.staging import stage_directory
 from ...optics import write_water
 from ...results.atomic_file import write_text
 from ...results.directory import clear_directory
 from ..calibrate import Calibration
 from ..readings_file import write_readings
-from ...base.files.staging import stage_directory
 from .document import json_text
 from .page import render
 from .plots import draw_plots

@@ -1,0 +1,96 @@
+"""The rows of the tables of a gap, for the terminal and the page."""
+
+from __future__ import annotations
+
+import math
+
+from ..attribution import Cause
+from ..errors import AxisError, Estimate, HorizonError
+from ..measure import Gap
+from ..sensor_residuals import SensorResidual
+
+
+def format_estimate(estimate: Estimate, factor: float = 1.0) -> str:
+    """Return a number with its interval: ``0.42 (0.38 to 0.47)``."""
+    value = format_number(factor * estimate.value)
+    if estimate.low is None or estimate.high is None:
+        return value
+    low, high = (format_number(factor * limit) for limit in (estimate.low, estimate.high))
+    return f"{value} ({low} to {high})"
+
+
+def format_number(value: float) -> str:
+    """Return a number with three significant digits, and at most four decimals."""
+    if abs(value) < 5e-5:
+        return "0"
+    digits = min(4, max(0, 2 - math.floor(math.log10(abs(value)))))
+    return f"{value:.{digits}f}"
+
+
+def axis_rows(error: HorizonError) -> list[tuple[str, str, str, str]]:
+    """Return axis and unit, RMS, bias, and displacement ratio of each degree of freedom."""
+    return [
+        (
+            f"{axis.axis} [{'m' if axis.unit == 'm' else '°'}]",
+            format_estimate(axis.rms, _factor(axis)),
+            format_estimate(axis.bias, _factor(axis)),
+            "–" if axis.ratio is None else f"{axis.ratio:.3f}",
+        )
+        for axis in error.axes
+    ]
+
+
+def horizon_row(error: HorizonError) -> tuple[str, str, str, str, str]:
+    """Return horizon, windows, error of the position, distance travelled, and their ratio."""
+    share = "–" if error.share is None else f"{100.0 * error.share:.2g} %"
+    return (
+        f"{error.horizon:g} s",
+        f"{error.n_windows} ({error.n_blocks:.3g} apart)",
+        f"{format_estimate(error.distance)} m",
+        f"{format_number(error.path_length)} m",
+        share,
+    )
+
+
+def cause_row(cause: Cause) -> tuple[str, str, str, str, str]:
+    """Return coefficient, factor, share of the error, confidence, and place in the file."""
+    limits = "" if cause.low is None else f" ({cause.low:.3g} to {cause.high:.3g})"
+    confidence = "–" if cause.confidence is None else f"{100.0 * cause.confidence:.3g} %"
+    return (
+        cause.coefficient.name,
+        f"{cause.factor:.3g}{limits}",
+        f"{100.0 * cause.share:.3g} %",
+        confidence,
+        cause.coefficient.advice,
+    )
+
+
+def sensor_row(residual: SensorResidual) -> tuple[str, str, str, str, str]:
+    """Return sensor, quantity, RMS, bias, and deviation of the measured readings."""
+    return (
+        residual.sensor,
+        f"{residual.quantity} [{residual.unit}]",
+        f"{residual.rms:.3g}",
+        f"{residual.bias:.3g}",
+        f"{residual.measured_deviation:.3g}",
+    )
+
+
+def input_rows(gap: Gap) -> list[tuple[str, str]]:
+    """Return the names and values of the inputs."""
+    log = gap.log
+    twists = "none" if log.motion is None else log.motion.twist_source
+    return [
+        ("log", f"{log.path.rsplit('/', 1)[-1]}, {log.duration:.1f} s, {log.format}"),
+        ("hash of the log", log.sha256),
+        ("twists", "of the log" if twists == "log" else "estimated from the poses"),
+        ("scene, vehicle", f"{gap.scene}, {gap.vehicle}"),
+        ("commands", ", ".join(gap.command_kinds)),
+        ("windows", f"{len(gap.windows.starts)}, every {gap.windows.spacing:.3g} s"),
+        ("radius of gyration", f"{gap.radius:.3g} m"),
+        ("seed", str(gap.settings.seed)),
+    ]
+
+
+def _factor(axis: AxisError) -> float:
+    return 1.0 if axis.unit == "m" else math.degrees(1.0)
