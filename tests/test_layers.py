@@ -83,7 +83,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "calibration": GROUND | {"results", "analysis", "statistics", "calibration"},
     "logs": BASE | {"middleware", "logs"},
-    "gap": TASKS | ENGINES | {"checks", "runs", "analysis", "logs", "gap"},
+    "gap": TASKS | ENGINES | {"analysis", "middleware", "logs", "gap"},
     "identification": TASKS | ENGINES | {"analysis", "logs", "identification"},
     "virtual_sensors": ENGINES | {"simulation", "logs", "virtual_sensors"},
     "scenarios": (

@@ -17,7 +17,7 @@ CAPTIONS = {
     "tracks": "Track of the log, and the simulation from states of the log (dots). "
     "Left: from above. Right: over time.",
     "coefficients": "Share of the error that one coefficient alone would explain, with its factor "
-    "(linear). Orange: the named one.",
+    "by the linear effect. Orange: the named one, with its final factor.",
     "spectrum": "Spectral density of the residual acceleration of one step, along the log.",
 }
 

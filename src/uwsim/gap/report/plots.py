@@ -124,6 +124,8 @@ def _draw_spectrum(residuals: StepResiduals) -> Figure:
                 )
             axes.set_xscale("log")
             axes.set_yscale("log")
+            low, high = (math.log10(limit) for limit in axes.get_ylim())
+            axes.set_ylim(10.0 ** math.floor(low), 10.0 ** math.ceil(high))
             axes.set_xlabel("frequency [Hz]")
             axes.set_ylabel(f"residual acceleration [{unit}]")
             axes.legend(loc="best")
@@ -133,11 +135,11 @@ def _draw_spectrum(residuals: StepResiduals) -> Figure:
 def _draw_shares(gap: Gap) -> Figure:
     assert gap.attribution is not None
     rows = gap.attribution.shares[:MAX_BARS][::-1]
-    names = [cause.coefficient.name for cause in gap.attribution.causes]
+    factors = {cause.coefficient.name: cause.factor for cause in gap.attribution.causes[:1]}
     with styled_figure((7.2, 0.7 + 0.24 * len(rows))) as figure:
         axes = figure.subplots()
         shares = [100.0 * share for _, share, _ in rows]
-        colours = [PALETTE[1] if name in names[:1] else PALETTE[0] for name, _, _ in rows]
+        colours = [PALETTE[1] if name in factors else PALETTE[0] for name, _, _ in rows]
         axes.barh(range(len(rows)), shares, color=colours, height=0.62)
         axes.set_yticks(range(len(rows)), [name for name, _, _ in rows])
         axes.grid(visible=False, axis="y")
@@ -147,8 +149,7 @@ def _draw_shares(gap: Gap) -> Figure:
             f"share of the error of {gap.attribution.duration:g} s that the coefficient alone "
             "explains [%]"
         )
-        for place, (_, share, factor) in enumerate(rows):
-            axes.text(
-                100.0 * share + 1.0, place, f"× {factor:.3g}", va="center", fontsize=7, color=INK
-            )
+        for place, (name, share, linear_factor) in enumerate(rows):
+            text = f"× {factors.get(name, linear_factor):.3g}"
+            axes.text(100.0 * share + 1.0, place, text, va="center", fontsize=7, color=INK)
     return figure
