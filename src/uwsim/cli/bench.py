@@ -19,7 +19,9 @@ from ..base.files.file_names import file_names
 from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import warn
 from ..errors import BadSetting, ErrorCollector
+from ..runs.planning.ardupilot_scene import ADDRESS
 from ..runs.planning.plan_request import PlanRequest
+from .options.ardupilot_option import ArduPilotOption
 from .options.client_options import ClientOptions
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, option
@@ -89,6 +91,7 @@ class BenchOptions:
     ] = 1
     processes: WorkerOptions
     client_options: ClientOptions
+    ardupilot: ArduPilotOption = False
     out: Annotated[
         Path | None,
         option(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
@@ -121,6 +124,7 @@ class BenchOptions:
                 mode=self.mode,
                 levels=levels,
                 client=self.client_options.client_spec(),
+                udp_address=ADDRESS if self.ardupilot else None,
             )
             return [replace(request, algorithm=name) for name in self.algorithm or (None,)]
         return []
@@ -140,6 +144,11 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
 
     errors, level_errors, folders = ErrorCollector(), ErrorCollector(), []
     options.client_options.check(errors, options.processes.workers)
+    with errors.collect():
+        if options.ardupilot and options.processes.workers not in ("0", "1"):
+            raise BadSetting(
+                f"--workers {options.processes.workers}: --ardupilot is one program; expected 1."
+            )
     modes = {"resume": options.resume, "overwrite": options.overwrite}
     requests = options.requests(read_levels(options.level, level_errors), errors)
     executor, plans = plan_all(

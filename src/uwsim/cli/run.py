@@ -12,14 +12,17 @@ from typing import TYPE_CHECKING
 
 from ..base.exceptions import convert_to_run_failed
 from ..base.interrupts import raise_on_interrupt
-from ..base.terminal import print_warnings, warn
+from ..base.terminal import print_warnings, report, warn
 from ..base.tracked_parameters import describe_unread_parameters
+from ..devices.ardupilot import ArduPilotLink
 from ..errors import BadSetting, ErrorCollector, RunFailed
 from ..runs.foreign_code import announce_code, refuse_code
+from ..runs.planning.ardupilot_scene import connect_ardupilot, exchange_timestep
 from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
 from ..runs.program import load_program
 from ..runs.substituted_files import warn_of_substituted_files
+from ..world import TIMESTEP
 from .options.connections import ConnectionOptions, open_connections
 from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
@@ -72,6 +75,9 @@ def run(
     with errors.collect():
         if spec is not None and no_code:
             refuse_code(spec)
+    with errors.collect():
+        if spec is not None and program_options.ardupilot:
+            spec = connect_ardupilot(spec)
     quirks = compatibility_of(changes.compat or [], errors)
     with errors.collect():
         live_options.check()
@@ -82,8 +88,11 @@ def run(
     assert spec is not None
     announce_code(spec)
     warn_of_substituted_files(spec, folders)
-    model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
-    with Simulation(model, udp_address=program_options.udp_address) as simulation:
+    timestep = exchange_timestep(spec) if program_options.ardupilot else TIMESTEP
+    model = compile_scene(
+        spec, seed=seed, timestep=timestep, data_path=folders, compatibility=quirks
+    )
+    with Simulation(model, udp_address=program_options.port_address) as simulation:
         print_warnings(model_warnings(model))
         raise_on_interrupt()
         scene_topics = None
@@ -180,7 +189,9 @@ def check_run_options(
     settings = [setting for setting in changes.all_settings if setting.startswith(ALGORITHM_PREFIX)]
     connections.check(errors)
     with errors.collect():
-        is_endless = program_options.duration is None and (connections.is_connected or is_viewed)
+        is_endless = program_options.duration is None and (
+            connections.is_connected or is_viewed or program_options.ardupilot
+        )
         duration = math.inf if is_endless else read_duration(program_options.duration or "10s")
     with errors.collect():
         if program_options.program is not None:
@@ -277,6 +288,9 @@ def report_run(
         print(f"{Path(spec.path).name}: stopped before the first step; no topic has a message")
     else:
         print_topics(spec.path, simulation, rates.rates(), output.record)
+    for device in simulation.world.devices:
+        if isinstance(device, ArduPilotLink):
+            report(device.describe())
 
 
 def warn_left_out(recorder: Recorder) -> None:

@@ -57,6 +57,7 @@ def control_run_of(run: Run) -> Run:
             parameters={} if topic is None or is_default else {"image_topic": topic},
         ),
         is_blind=True,
+        udp_address=None,
     )
     inputs = run.inputs.drop_algorithm()
     return Run(

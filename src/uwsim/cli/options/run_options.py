@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
+from .ardupilot_option import ArduPilotOption
 from .completion import algorithm_names, complete_names
 from .help_texts import INPUT, OUTPUT, RUN, option
 from .options import JsonOption
@@ -47,6 +48,14 @@ class ProgramOptions:
             "datagrams of a flight dynamics model, the element fdm; such a run is not repeatable.",
         ),
     ] = None
+    ardupilot: ArduPilotOption = False
+
+    @property
+    def port_address(self) -> str | None:
+        """The address of this computer at which UDP ports are opened; None: none are."""
+        from ...runs.planning.ardupilot_scene import ADDRESS
+
+        return self.udp_address or (ADDRESS if self.ardupilot else None)
 
 
 SeedOption = Annotated[int, option(RUN, "--seed", metavar="N", min=0, help="Random seed.")]

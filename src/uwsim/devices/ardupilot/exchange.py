@@ -66,6 +66,11 @@ class ExchangeState(Record):
     n_others: int = 0
     """The number of datagrams of other senders, as far as they were read."""
 
+    @property
+    def has_events(self) -> bool:
+        """True if packets were lost, repeated or invalid."""
+        return any((self.n_duplicates, self.n_lost, self.n_restarts, self.n_invalid, self.n_others))
+
 
 class Exchange:
     """The exchange with one ArduPilot.

@@ -18,6 +18,8 @@ from .process import OwnProcess, ProcessAlgorithm
 
 Program = Callable[[Simulation, Mapping[str, float | str]], Algorithm]
 """The constructor of a simulation's algorithm from the parameters that the user set."""
+ARDUPILOT, ARDUPILOT_PARTICIPATION = "ArduPilot", f"{LOCK_STEP}, ardupilot, grade (b)"
+"""The name and the participation in a result of the autopilot of ``--ardupilot``."""
 OWN_PROCESS, SHARED_PROCESS = "own process, grade (b)", "in process"
 """The texts in a result for the participation of an algorithm class that is not bundled."""
 
@@ -83,13 +85,14 @@ def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
 
     None if only code of uwsim takes part.
     """
+    autopilot = () if plan.udp_address is None else ((ARDUPILOT, ARDUPILOT_PARTICIPATION),)
     if plan.algorithm.client is not None:
-        return ((plan.algorithm.name, plan.algorithm.client.participation),)
+        return ((plan.algorithm.name, plan.algorithm.client.participation), *autopilot)
     if plan.algorithm.own_process:
-        return ((plan.algorithm.name, OWN_PROCESS),)
+        return ((plan.algorithm.name, OWN_PROCESS), *autopilot)
     if plan.algorithm.cls.__module__.startswith("uwsim."):
-        return None
-    return ((plan.algorithm.name, SHARED_PROCESS),)
+        return autopilot or None
+    return ((plan.algorithm.name, SHARED_PROCESS), *autopilot)
 
 
 def is_outside(participation: str) -> bool:

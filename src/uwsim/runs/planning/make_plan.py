@@ -18,6 +18,7 @@ from ..foreign_code import announce, code_refusal, refuse_code
 from ..named_plugins import named_plugins
 from ..program import load_program
 from ..substituted_files import warn_of_substituted_files
+from .ardupilot_scene import connect_ardupilot, exchange_timestep
 from .option_values import compatibility_of, levels_of, mode_of, number_or_text, pairs_of
 from .plan_request import PlanRequest
 from .stored_pilot import PREFIX, with_stored_pilot
@@ -81,6 +82,9 @@ def make_plan(request: PlanRequest) -> Plan:
         if algorithm_class is None and not name.startswith(PREFIX):
             algorithm_class = _algorithm(request, files)
     with errors.collect():
+        if scene is not None and request.udp_address is not None:
+            scene = connect_ardupilot(scene, ends_on_restart=True)
+    with errors.collect():
         check_client(request, parameters)
     check_parameters(algorithm_class, parameters, errors)
     mode: Mode = "sequential"
@@ -112,12 +116,20 @@ def make_plan(request: PlanRequest) -> Plan:
         seed=request.seed,
         repeats=request.repeat,
         level_choices=levels,
-        timestep=TIMESTEP if spec.timestep is None else spec.timestep,
+        timestep=_timestep_of(spec, scene, request),
+        udp_address=request.udp_address,
         compatibility=quirks,
         data_path=tuple(request.data_path),
         inputs=inputs,
         plugins=_add_program(files.plugins, _algorithm_name(request, spec)),
     )
+
+
+def _timestep_of(spec: BenchmarkSpec, scene: SceneSpec, request: PlanRequest) -> float:
+    """Return the length of a step [s]: that of the file, or the one that suits ArduPilot."""
+    if spec.timestep is not None:
+        return spec.timestep
+    return TIMESTEP if request.udp_address is None else exchange_timestep(scene)
 
 
 def _add_program(plugins: tuple[Plugin, ...], algorithm: str) -> tuple[Plugin, ...]:

@@ -97,6 +97,8 @@ class Plan:
     """The names of the compatibility quirks that are on."""
     timestep: float = TIMESTEP
     """The length of a physics step [s]."""
+    udp_address: str | None = None
+    """The address of this computer at which ArduPilot steers the vehicles; None: it does not."""
     data_path: tuple[Path, ...] = ()
     """The folders in which files are searched for (``--data-path``)."""
     is_blind: bool = False

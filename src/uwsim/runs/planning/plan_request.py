@@ -44,6 +44,8 @@ class PlanRequest:
     """True if code that the files name is refused."""
     client: ClientSpec | None = None
     """The external program that is the algorithm; None if the algorithm is a class."""
+    udp_address: str | None = None
+    """The address of this computer at which ArduPilot steers the vehicles; None: it does not."""
     in_process: bool = False
     """True if a third-party algorithm shares the simulation's process."""
     algorithm_is_from: str = ""

@@ -31,6 +31,7 @@ from ...benchmark.updaters import (
     ramp_level,
     settling_time,
 )
+from ...devices.ardupilot import ArduPilotLink
 from ...errors import NeverStarted, SimulationFailed
 from ...messages import String
 from ...simulation import Calls, Simulation
@@ -94,6 +95,7 @@ def execute(
             compile_plan(plan, trial.seed) if cache is None else cache.model(plan, trial.seed),
             stream_prefix=trial.stream_prefix,
             is_blind=plan.is_blind,
+            udp_address=plan.udp_address,
             pool=None if cache is None else cache.renderers,
         )
         try:
@@ -199,7 +201,11 @@ class _Execution:
             facts=self._facts,
             parameters=parameters,
             streams=() if plan.is_blind else self._streams(),
-            notes=(*self._notes, *unread_parameters(plan, self._algorithm, self._node)),
+            notes=(
+                *self._notes,
+                *unread_parameters(plan, self._algorithm, self._node),
+                *_link_notes(simulation),
+            ),
             checkpoints=self._fingerprinter.checkpoints(),
             motion=self._motion.track(),
             inputs=b"" if self._inputs is None else self._inputs.data(),
@@ -424,6 +430,12 @@ class _Execution:
             if self._plan.is_blind or status == SIMULATION_ERROR
             else all_snapshots(simulation, measures, self._phases, is_tracking=status == "ok"),
         )
+
+
+def _link_notes(simulation: Simulation) -> list[str]:
+    """Return a note for each connection to ArduPilot with lost, repeated or invalid packets."""
+    links = [part for part in simulation.world.devices if isinstance(part, ArduPilotLink)]
+    return [link.describe() for link in links if link.state.exchange.has_events]
 
 
 def _tick(measures: list[TriggeredMeasure]) -> None:

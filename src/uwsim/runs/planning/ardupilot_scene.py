@@ -1,0 +1,70 @@
+"""The scene of a run with ArduPilot: its elements ``<u:ardupilot>``, and its steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ...devices.ardupilot import ArduPilotSpec
+from ...errors import BadSetting
+from ...scene.spec import SceneSpec
+from ...world import TIMESTEP
+
+ADDRESS = "127.0.0.1"
+"""The address of this computer at which ArduPilot is expected by default."""
+
+
+def connect_ardupilot(scene: SceneSpec, *, ends_on_restart: bool = False) -> SceneSpec:
+    """Return a scene with at least one ``<u:ardupilot>``.
+
+    A scene without one has it in the first vehicle with dynamics.
+
+    Args:
+        scene: the scene.
+        ends_on_restart: True if a new start of ArduPilot ends the run, as in a benchmark.
+
+    Raises:
+        BadSetting: no vehicle has dynamics, or two vehicles have one port.
+    """
+    vehicles = list(scene.vehicles)
+    if not any(vehicle.parts_of(ArduPilotSpec) for vehicle in vehicles):
+        indices = [i for i, vehicle in enumerate(vehicles) if vehicle.dynamics is not None]
+        if not indices:
+            raise BadSetting(
+                "--ardupilot: no vehicle of the scene has <u:dynamics>, which thrusters need."
+            )
+        first_vehicle = vehicles[indices[0]]
+        parts = (*first_vehicle.parts, ArduPilotSpec())
+        vehicles[indices[0]] = replace(first_vehicle, parts=parts)
+    if ends_on_restart:
+        vehicles = [
+            replace(
+                vehicle,
+                parts=tuple(
+                    replace(part, on_restart="end") if isinstance(part, ArduPilotSpec) else part
+                    for part in vehicle.parts
+                ),
+            )
+            for vehicle in vehicles
+        ]
+    connected_scene = replace(scene, vehicles=tuple(vehicles))
+    ports = [spec.udp_port for spec in ardupilot_specs(connected_scene)]
+    for port in ports:
+        if ports.count(port) > 1:
+            raise BadSetting(
+                f"--ardupilot: {ports.count(port)} elements <u:ardupilot> have the UDP port "
+                f"{port}; expected an <instance> each."
+            )
+    return connected_scene
+
+
+def ardupilot_specs(scene: SceneSpec) -> Iterator[ArduPilotSpec]:
+    """Yield the elements ``<u:ardupilot>`` of a scene."""
+    for vehicle in scene.vehicles:
+        yield from vehicle.parts_of(ArduPilotSpec)
+
+
+def exchange_timestep(scene: SceneSpec) -> float:
+    """Return the step nearest to the default one of which the exchanges take a whole number [s]."""
+    rate = max((spec.rate for spec in ardupilot_specs(scene)), default=1.0 / TIMESTEP)
+    return 1.0 / (rate * max(1, round(1.0 / (rate * TIMESTEP))))
