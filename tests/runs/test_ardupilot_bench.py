@@ -38,8 +38,7 @@ def rows_of(out: Path) -> object:
 
 
 def column_of(out: Path, name: str) -> list[float]:
-    result = read_result(out)
-    return [float(row.cells[name]) for row in result.rows]
+    return [value for value in read_result(out).numbers(name) if value is not None]
 
 
 def test_two_runs_with_one_autopilot_have_the_same_rows(tmp_path: Path) -> None:

@@ -33,10 +33,10 @@ KEYS = (
     ("battery", "voltage", 1, False),
     ("battery", "current", 1, False),
 )
-"""Section, key, count of numbers, and whether ArduPilot requires the key."""
+"""The section, key, count of numbers, and whether ArduPilot requires the key."""
 State = dict[str, tuple[float, ...]]
 Law = Callable[[State], list[int]]
-NEUTRAL = [1500] * 8
+NEUTRAL_WIDTHS = [1500] * 8
 
 
 def read_number(text: str) -> tuple[float, str]:
@@ -77,15 +77,14 @@ def read_answer(buffer: bytes) -> State | None:
         return None
     text, state = buffer[begin + 1 : end].decode("latin-1"), State()
     for section, key, count, is_required in KEYS:
-        at = text.find(section)
-        if at >= 0:
-            after = at + len(section) + 1
-            at = text.find(key, after)
-        if at < 0:
+        index = text.find(section)
+        if index >= 0:
+            index = text.find(key, index + len(section) + 1)
+        if index < 0:
             if is_required:
                 return None
             continue
-        value = text[at + len(key) + 2 :]
+        value = text[index + len(key) + 2 :]
         numbers = (
             (read_number(value[:40].split(",")[0].split("}")[0])[0],)
             if count == 1
@@ -103,7 +102,7 @@ class Stub:
     """An autopilot that exchanges packets with the port of a simulation, in a thread."""
 
     port: int
-    law: Law = lambda state: NEUTRAL
+    law: Law = lambda state: NEUTRAL_WIDTHS
     n_channels: int = 16
     timeout: float = 1.1
     """The silence after which a packet is sent again [s]; 1.1 s as ArduPilot."""
@@ -117,11 +116,11 @@ class Stub:
     n_repeats: int = 0
     n_sent: int = 0
     n_frames: int = 0
-    keeps: int = 1_000_000
+    max_states: int = 1_000_000
 
     def __post_init__(self) -> None:
         self._is_stopped = threading.Event()
-        self._random = random.Random(1)
+        self._generator = random.Random(1)
         self._socket = self._new_socket()
         self._thread = threading.Thread(target=self._run, daemon=True)
 
@@ -165,13 +164,13 @@ class Stub:
                 continue
             buffer = buffer[buffer.rfind(b"\n") :]
             self.n_frames += 1
-            if len(self.states) < self.keeps:
+            if len(self.states) < self.max_states:
                 self.states.append(state)
             pwm, count = self.law(state), count + 1
 
     def _send(self, count: int, pwm: list[int]) -> None:
         self.n_sent += 1
-        if self.loss and self._random.random() < self.loss:
+        if self.loss and self._generator.random() < self.loss:
             return
         channels = [*pwm, *[0] * (self.n_channels - len(pwm))]
         magic = MAGIC_16 if self.n_channels == 16 else MAGIC_32
@@ -187,7 +186,7 @@ class Stub:
                     raise TimeoutError
                 self._socket.settimeout(left)
                 answer = self._socket.recv(65000)
-                if self.loss and self._random.random() < self.loss:
+                if self.loss and self._generator.random() < self.loss:
                     continue
                 return answer
             except ConnectionError:

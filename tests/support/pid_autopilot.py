@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from tests.support.ardupilot_stub import NEUTRAL, State
+from tests.support.ardupilot_stub import NEUTRAL_WIDTHS, State
 
 MOTORS = (
     # roll, pitch, yaw, throttle (up), forward, lateral (starboard)
@@ -67,7 +67,7 @@ class PidAutopilot:
 
     def __call__(self, state: State) -> list[int]:
         if not state:
-            return NEUTRAL
+            return NEUTRAL_WIDTHS
         (time,) = state["timestamp"]
         if time < self.last_time:  # the physics was reset
             self.integral, self.last_time = [0.0, 0.0, 0.0], 0.0

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.support.ardupilot_stub import NEUTRAL, State, Stub, free_port
+from tests.support.ardupilot_stub import NEUTRAL_WIDTHS, State, Stub, free_port
 from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled_files
 from uwsim.devices.ardupilot import ArduPilotLink
@@ -107,7 +107,7 @@ def test_lossy_and_lossless_runs_move_alike() -> None:
 
 def test_32_channels_are_read() -> None:
     port = free_port()
-    with opened(port) as simulation, Stub(port, lambda state: NEUTRAL, n_channels=32):
+    with opened(port) as simulation, Stub(port, lambda state: NEUTRAL_WIDTHS, n_channels=32):
         simulation.advance(0.1)
         assert len(link_of(simulation).state.exchange.pwm) == 32
 
