@@ -94,7 +94,7 @@ COMMANDS: dict[str, Command] = {
         ),
     ),
     "gap": Command(
-        module="gap",
+        module="logs.gap",
         function="gap",
         summary="Measure the error of the simulation of a real vehicle's log.",
         examples=(

@@ -8,14 +8,14 @@ from typing import Annotated
 
 import typer
 
-from ..base.terminal import clean_text, print_warnings
-from ..errors import BadSetting, ErrorCollector
-from .options.help_texts import INPUT, OUTPUT, option
-from .options.options import DataPathOption, JsonOption, SettingOptions
-from .output.console import standard_output
-from .output.progress import progress
-from .render import load_scene
-from .run import scene_settings
+from ...base.terminal import clean_text, print_warnings
+from ...errors import BadSetting, ErrorCollector
+from ..options.help_texts import INPUT, OUTPUT, option
+from ..options.options import DataPathOption, JsonOption, SettingOptions
+from ..output.console import standard_output
+from ..output.progress import progress
+from ..render import load_scene
+from ..run import scene_settings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,14 +120,14 @@ def gap(
         return
     if scene is None:
         raise BadSetting("Missing SCENE; expected a scene with the vehicle of the log.")
-    from ..checks import model_warnings
-    from ..gap import measure_gap
-    from ..gap.report import PAGE, WRITTEN_FILES, WRITTEN_FOLDERS, print_gap, write_gap
-    from ..gap.report.document import json_text
-    from ..gap.settings import GapSettings
-    from ..logs import read_log
-    from ..physics.compile_scene import compile_scene
-    from ..results.directory import check_output
+    from ...checks import model_warnings
+    from ...gap import measure_gap
+    from ...gap.report import PAGE, WRITTEN_FILES, WRITTEN_FOLDERS, print_gap, write_gap
+    from ...gap.report.document import json_text
+    from ...gap.settings import GapSettings
+    from ...logs import read_log
+    from ...physics.compile_scene import compile_scene
+    from ...results.directory import check_output
 
     folders, errors = tuple(data_path or ()), ErrorCollector()
     settings, spec, vehicle_log = GapSettings(), None, None
@@ -182,9 +182,9 @@ def parse_horizons(text: str) -> tuple[float, ...]:
 
 def write_template(log: Path, path: Path) -> None:
     """Write a mapping file to edit."""
-    from ..logs.csv_columns import template_text
-    from ..logs.csv_log import read_header
-    from ..results.atomic_file import write_text
+    from ...logs.csv_columns import template_text
+    from ...logs.csv_log import read_header
+    from ...results.atomic_file import write_text
 
     if log.suffix.lower() != ".csv":
         raise BadSetting(f"{log}: --write-mapping writes the template of a CSV log.")

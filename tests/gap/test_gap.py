@@ -1,0 +1,191 @@
+"""The reality gap of logs of an independent simulator, and of the simulator's own."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.gap.fossen import Rov, write_log
+from uwsim.errors import BadSetting
+from uwsim.gap import Gap, GapSettings, measure_gap, state_verdict
+from uwsim.gap.report import WRITTEN_FILES, write_gap
+from uwsim.logs import read_log, write_csv_log
+from uwsim.scene.reader import read_scene
+from uwsim.scene.spec import SceneSpec
+
+SCENE = Path(__file__).parent / "scene.xml"
+NOISE = np.array([0.005] * 3 + [0.001] * 4 + [0.01] * 3 + [0.002] * 3)
+"""Standard deviations of positions [m], quaternions, velocities [m/s] and rates [rad/s]."""
+
+
+def weaken_bow_port(rov: Rov) -> None:
+    rov.strength[1] = 0.8
+
+
+def raise_yaw_drag(rov: Rov) -> None:
+    rov.quadratic[5] *= 1.5
+
+
+def raise_surge_added_mass(rov: Rov) -> None:
+    rov.added[0] *= 1.4
+
+
+@pytest.fixture(scope="module")
+def scene() -> SceneSpec:
+    return read_scene(SCENE)
+
+
+def measure(path: Path, scene: SceneSpec, **settings: object) -> Gap:
+    values = {"n_windows": 40, "horizons": (1.0, 5.0), **settings}
+    return measure_gap(read_log(path), scene, settings=GapSettings(**values))  # type: ignore[arg-type]
+
+
+@pytest.fixture(scope="module")
+def true_log(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_log(tmp_path_factory.mktemp("log") / "true.csv", Rov(), duration=24.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "name", "factor"),
+    [
+        (raise_yaw_drag, "yaw drag", 1.5),
+        (raise_surge_added_mass, "surge added mass", 1.4),
+        (weaken_bow_port, "thrust of bow_port", 0.8),
+    ],
+)
+def test_the_verdict_names_the_coefficient_that_is_wrong(
+    change: Callable[[Rov], None], name: str, factor: float, scene: SceneSpec, tmp_path: Path
+) -> None:
+    rov = Rov()
+    change(rov)
+    path = write_log(tmp_path / "log.csv", rov, duration=42.0, noise=NOISE)
+    gap = measure(path, scene)
+    assert gap.attribution is not None
+    cause = gap.attribution.causes[0]
+    assert cause.coefficient.name == name
+    assert cause.low is not None
+    assert cause.high is not None
+    assert cause.low - 0.03 < factor < cause.high + 0.03
+    assert cause.factor == pytest.approx(factor, rel=0.05)
+    assert f"{name}: {cause.factor:.3g} times its value" in state_verdict(gap)
+    assert "dominates" in state_verdict(gap)
+
+
+def test_the_simulation_follows_an_independent_integrator_of_the_same_equations(
+    true_log: Path, scene: SceneSpec
+) -> None:
+    gap = measure(true_log, scene, has_attribution=False)
+    first, second = gap.horizons
+    assert first.distance.value < 1e-4
+    assert second.distance.value < 2e-3
+    assert all(axis.rms.value < np.radians(0.5) for axis in second.axes[3:])
+    assert state_verdict(gap).startswith("The simulation follows the log")
+
+
+def test_a_log_of_the_simulator_itself_has_no_gap(true_log: Path, scene: SceneSpec) -> None:
+    import uwsim
+    from uwsim.logs import CommandSeries, MotionSeries, VehicleLog
+
+    log = read_log(true_log)
+    [commands] = log.commands
+    rows, times = [], []
+    with uwsim.load(SCENE) as simulation:
+        vehicle = simulation.world.vehicles.find("bluerov2")
+        for time, values in zip(commands.times[:120], commands.values[:120], strict=True):
+            vehicle.autopilot.set_thrusters(values)  # type: ignore[union-attr]
+            for k in range(5):
+                pose = simulation.pose("bluerov2")
+                state = [pose.position, pose.quaternion, simulation.velocity("bluerov2")]
+                rows.append(np.concatenate(state))
+                times.append(time + 0.02 * k)
+                simulation.advance(0.02)
+    table = np.array(rows)
+    own_log = VehicleLog(
+        path="own.csv",
+        format="csv",
+        sha256="",
+        vehicle="bluerov2",
+        motion=MotionSeries(
+            times=np.array(times),
+            positions=table[:, :3],
+            quaternions=table[:, 3:7],
+            twists=table[:, 7:],
+        ),
+        commands=(
+            CommandSeries(
+                kind="thrusters",
+                names=commands.names,
+                times=commands.times[:120],
+                values=commands.values[:120],
+            ),
+        ),
+    )
+    gap = measure_gap(own_log, scene, settings=GapSettings(n_windows=8, horizons=(1.0, 5.0)))
+    assert gap.horizons[1].distance.value < 1e-6
+    assert gap.attribution is not None
+    assert gap.attribution.causes == ()
+
+
+def test_the_same_log_gives_the_same_bytes(
+    true_log: Path, scene: SceneSpec, tmp_path: Path
+) -> None:
+    for name in ("a", "b"):
+        write_gap(measure(true_log, scene, n_windows=6), tmp_path / name)
+    files = sorted(path.relative_to(tmp_path / "a") for path in (tmp_path / "a").rglob("*.*"))
+    assert all(WRITTEN_FILES.fullmatch(str(path)) for path in files)
+    for path in files:
+        assert (tmp_path / "a" / path).read_bytes() == (tmp_path / "b" / path).read_bytes()
+    document = json.loads((tmp_path / "a" / "gap.json").read_text())
+    assert document["horizons"][0]["n_windows"] == 6
+    with pytest.raises(BadSetting):
+        write_gap(measure(true_log, scene, n_windows=6), tmp_path / "a")
+
+
+def test_names_of_thrusters_that_the_vehicle_lacks_are_errors(
+    true_log: Path, scene: SceneSpec, tmp_path: Path
+) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text(true_log.read_text().replace("thrusters.bow_port", "thrusters.bow_prot"))
+    with pytest.raises(BadSetting, match=r"bow_prot.*Did you mean 'bow_port'"):
+        measure(path, scene)
+
+
+def test_a_log_without_commands_is_an_error(
+    true_log: Path, scene: SceneSpec, tmp_path: Path
+) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text(true_log.read_text().replace("thrusters.", "t_"))
+    with pytest.raises(BadSetting, match="has no commands"):
+        measure(path, scene)
+
+
+def test_no_window_spans_a_gap_of_the_log(true_log: Path, scene: SceneSpec, tmp_path: Path) -> None:
+    lines = true_log.read_text().splitlines(keepends=True)
+    kept = [line for line in lines[1:] if not 8.0 < float(line.split(",")[0]) < 10.0]
+    path = tmp_path / "log.csv"
+    path.write_text("".join([lines[0], *kept]))
+    gap = measure(path, scene, has_attribution=False)
+    starts = gap.windows.starts
+    assert not ((starts > 7.0 + 1e-6) & (starts < 10.0 - 1e-6)).any()
+    assert any("no sample from 8.00 s to 10.00 s" in remark for remark in gap.remarks)
+
+
+def test_a_log_survives_writing_and_reading(true_log: Path, tmp_path: Path) -> None:
+    log = read_log(true_log)
+    path = tmp_path / "again.csv"
+    path.write_text(write_csv_log(log))
+    again = read_log(path)
+    assert log.motion is not None
+    assert again.motion is not None
+    assert (again.motion.twists == log.motion.twists).all()  # type: ignore[union-attr]
+    assert (again.commands[0].values == log.commands[0].values).all()
+
+
+@pytest.mark.parametrize("horizons", [(), (5.0, 1.0), (0.001,), (1.0, float("inf"))])
+def test_invalid_horizons_are_errors(horizons: tuple[float, ...]) -> None:
+    with pytest.raises(BadSetting, match="horizons"):
+        GapSettings(horizons=horizons)
