@@ -31,7 +31,7 @@ VARIABLE = "UWSIM_ARDUSUB"
 """The environment variable with the path of an ArduSub that was built for ``--board sitl``."""
 RATE = 400
 """The rate of frames [Hz]."""
-MANUAL, STABILIZE, ALT_HOLD, POSHOLD = 19, 0, 2, 16
+MANUAL_MODE, STABILIZE, ALT_HOLD, POSHOLD = 19, 0, 2, 16
 """The numbers of ArduSub's modes."""
 PARAMETERS = {
     "FRAME_CONFIG": 2,  # vectored_6dof
@@ -65,8 +65,8 @@ class Order:
     """The simulation time [s]."""
     mode: int | None = None
     """The mode to set."""
-    arms: bool = False
-    """True to arm."""
+    is_arming: bool = False
+    """True if the vehicle is armed."""
     sticks: tuple[int, int, int, int] = (0, 0, 500, 0)
     """The x, y, z and r of MANUAL_CONTROL; 0, 0, 500, 0 is neutral."""
 
@@ -158,8 +158,8 @@ def record_exchange(exchange: Exchange, trial: Trial) -> None:
 def steer_at_packets(exchange: Exchange, pilot: Any, orders: list[Order], trial: Trial) -> None:
     """Send the orders after the packets of their times, when ArduSub waits for an answer."""
     wait_for_packet = exchange.wait_for_packet
-    waiting = sorted(orders, key=lambda order: order.time)
-    present = [Order(time=0.0)]
+    later_orders = sorted(orders, key=lambda order: order.time)
+    last_order = [Order(time=0.0)]
     count = [0]
 
     def wait(time: float) -> None:
@@ -170,14 +170,14 @@ def steer_at_packets(exchange: Exchange, pilot: Any, orders: list[Order], trial:
                 trial.texts.append(message.text)
         if time >= 1.0 and count[0] % (RATE // 2) == 0:
             pilot.mav.heartbeat_send(6, 8, 0, 0, 0)
-        while waiting and time >= waiting[0].time:
-            order = present[0] = waiting.pop(0)
+        while later_orders and time >= later_orders[0].time:
+            order = last_order[0] = later_orders.pop(0)
             if order.mode is not None:
                 pilot.mav.set_mode_send(1, 1, order.mode)
-            if order.arms:
+            if order.is_arming:
                 pilot.mav.command_long_send(1, 1, 400, 0, 1, 0, 0, 0, 0, 0, 0)
         if time >= 15.0 and count[0] % (RATE // 20) == 0:
-            pilot.mav.manual_control_send(1, *present[0].sticks, 0)
+            pilot.mav.manual_control_send(1, *last_order[0].sticks, 0)
         count[0] += 1
 
     exchange.wait_for_packet = wait  # type: ignore[method-assign]

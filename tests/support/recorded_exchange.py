@@ -17,7 +17,7 @@ from pathlib import Path
 
 from tests.support.opened import open_scene
 from tests.support.px4_stub import find_free_port
-from tests.support.real_ardusub import ALT_HOLD, MANUAL, RATE, Order, fly, scene_at
+from tests.support.real_ardusub import ALT_HOLD, MANUAL_MODE, RATE, Order, fly, scene_at
 
 FOLDER = Path(__file__).parents[1] / "autopilots" / "ardupilot" / "exchange"
 """The folder of the recorded exchange."""
@@ -28,8 +28,8 @@ ANSWERS = FOLDER / "arm-hold-strafe.answers.json"
 PACKET_SIZE = 40
 """The size of a packet with 16 channels [bytes]."""
 ORDERS = [
-    Order(time=20.0, mode=MANUAL),
-    Order(time=21.0, arms=True),
+    Order(time=20.0, mode=MANUAL_MODE),
+    Order(time=21.0, is_arming=True),
     Order(time=22.0, mode=ALT_HOLD),
     Order(time=26.0, sticks=(0, 400, 500, 0)),
     Order(time=29.0),

@@ -14,7 +14,7 @@ import pytest
 
 from tests.support.real_ardusub import (
     ALT_HOLD,
-    MANUAL,
+    MANUAL_MODE,
     POSHOLD,
     STABILIZE,
     VARIABLE,
@@ -31,8 +31,8 @@ pytestmark = pytest.mark.skipif(
 )
 
 ORDERS = [
-    Order(time=20.0, mode=MANUAL),
-    Order(time=21.0, arms=True),
+    Order(time=20.0, mode=MANUAL_MODE),
+    Order(time=21.0, is_arming=True),
     Order(time=22.0, sticks=(300, 0, 500, 0)),  # forward
     Order(time=24.0),
     Order(time=30.0, sticks=(0, 300, 500, 0)),  # to starboard
@@ -96,8 +96,8 @@ def test_each_stick_moves_the_vehicle_along_its_axis(
 ) -> None:
     body = displacement(trial, start, start + 2.1)
     assert sign * body[axis] > 0.1
-    others = [abs(body[i]) for i in range(2) if i != axis]
-    assert max(others) < 0.05
+    other_distances = [abs(body[i]) for i in range(2) if i != axis]
+    assert max(other_distances) < 0.05
 
 
 def test_the_stick_of_yaw_turns_to_starboard(trial: Trial) -> None:
@@ -128,7 +128,7 @@ def test_the_vehicle_stays_where_the_pilot_has_left_it(trial: Trial) -> None:
 
 
 def test_two_runs_of_ardusub_exchange_the_same_bytes() -> None:
-    """It needs `PARAMETERS` without noise and logs, and ``--start-time``."""
+    """Compare two runs with `PARAMETERS`: ArduSub writes no log and begins at a given time."""
     orders = [order for order in ORDERS if order.time < 26.0]
     orders.append(Order(time=26.0, mode=ALT_HOLD))
     trials = [fly(orders, 32.0) for _ in range(2)]

@@ -16,12 +16,12 @@ def test_every_packet_of_a_real_ardusub_is_read() -> None:
     assert len(packets) == 12800
     assert [packet.frame_count for packet in packets if packet] == list(range(12800))
     assert {packet.frame_rate for packet in packets if packet} == {400}
-    armed = [packet.pwm[:8] for packet in packets[22 * 400 :] if packet]
-    assert any(width != 1500 for pwm in armed for width in pwm)
+    armed_outputs = [packet.pwm[:8] for packet in packets[22 * 400 :] if packet]
+    assert any(width != 1500 for pwm in armed_outputs for width in pwm)
 
 
 def test_the_same_packets_get_the_same_answers() -> None:
-    """If physics has changed: ``python -m tests.support.recorded_exchange --answers``."""
+    """Compare; after a change of physics: ``python -m tests.support.recorded_exchange --answers``."""
     expected = json.loads(ANSWERS.read_text())
     answers = describe_answers(replay(read_packets()))
     assert answers["seconds"] == expected["seconds"]

@@ -19,7 +19,7 @@ from uwsim.autopilots.px4 import (
     encode_frame,
 )
 
-common = pytest.importorskip("pymavlink.dialects.v20.common")
+dialect = pytest.importorskip("pymavlink.dialects.v20.common")
 
 READINGS = SensorReadings(
     time_usec=4_000_000,
@@ -45,15 +45,15 @@ def frame_of(message, sequence=0):
 
 def parse(data):
     """Return the message that pymavlink reads; it raises an error if the checksum is wrong."""
-    link = common.MAVLink(None)
+    link = dialect.MAVLink(None)
     (message,) = link.parse_buffer(data)
     return message
 
 
 def controls_frame(time_usec=4000, *, controls=(0.5,) * 16, flags=1, mode=129, version=2):
     """Return the bytes of HIL_ACTUATOR_CONTROLS that pymavlink writes."""
-    link = common.MAVLink(None, srcSystem=1, srcComponent=1)
-    message = common.MAVLink_hil_actuator_controls_message(time_usec, list(controls), mode, flags)
+    link = dialect.MAVLink(None, srcSystem=1, srcComponent=1)
+    message = dialect.MAVLink_hil_actuator_controls_message(time_usec, list(controls), mode, flags)
     return message.pack(link, force_mavlink1=version == 1)
 
 
@@ -140,10 +140,10 @@ def test_pymavlink_reads_an_odometry_in_ned_and_body_axes():
     )
     message = parse(frame_of(odometry))
     assert (message.frame_id, message.child_frame_id) == (
-        common.MAV_FRAME_LOCAL_NED,
-        common.MAV_FRAME_BODY_FRD,
+        dialect.MAV_FRAME_LOCAL_NED,
+        dialect.MAV_FRAME_BODY_FRD,
     )
-    assert message.estimator_type == common.MAV_ESTIMATOR_TYPE_VISION
+    assert message.estimator_type == dialect.MAV_ESTIMATOR_TYPE_VISION
     assert (message.x, message.z) == (1.0, 3.0)
     assert [message.pose_covariance[i] for i in (0, 6, 11)] == pytest.approx([0.01] * 3)
     assert [message.pose_covariance[i] for i in (15, 18, 20)] == pytest.approx([0.02] * 3)
