@@ -27,6 +27,14 @@ from .options.connections import ConnectionOptions, open_connections
 from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .options.run_options import ProgramOptions, RecordOptions, SeedOption
+from .options.strict_options import StrictOptions
+from .output.strict_report import (
+    hold_garbage,
+    make_strict_clock,
+    print_streams,
+    raise_if_late,
+    warn_of_invalid_input,
+)
 from .output.topic_table import print_json, print_topics
 from .render import load_scene
 from .simulated_time import read_duration, run_pieces
@@ -34,6 +42,7 @@ from .simulated_time import read_duration, run_pieces
 if TYPE_CHECKING:
     from ..bus import Algorithm
     from ..middleware.recording import ImageStorage, Recorder, TopicRates
+    from ..middleware.strict import StrictClock
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
     from ..viewer.scene_topics import SceneTopics
@@ -45,6 +54,7 @@ def run(
     program_options: ProgramOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
+    strict_options: StrictOptions,
     live_options: LiveOptions,
     seed: SeedOption = 0,
     output: RecordOptions,
@@ -64,6 +74,9 @@ def run(
     With a connection (--ros1, --ros2, --web) external programs read and write topics and call
     services. Unless --client or --speed is given, the scene then runs in real time. The run is
     repeatable only with --client.
+
+    With --strict the scene runs in real time with hardware in the loop. A table shows how late
+    steps, sent bytes and commands were; the status is 3 if anything was late or missing.
     """
     from ..checks import model_warnings
     from ..physics.compile_scene import compile_scene
@@ -81,8 +94,15 @@ def run(
     quirks = compatibility_of(changes.compat or [], errors)
     with errors.collect():
         live_options.check()
+    strict_options.check(connections, errors, is_viewed=live_options.view)
+    connections, udp_address = strict_options.apply(connections, program_options.port_address)
     run_settings = check_run_options(
-        program_options, output, changes, connections, errors, is_viewed=live_options.view
+        program_options,
+        output,
+        changes,
+        connections,
+        errors,
+        is_endless=(live_options.view or strict_options.is_strict or program_options.ardupilot),
     )
     errors.raise_errors()
     assert spec is not None
@@ -92,8 +112,9 @@ def run(
     model = compile_scene(
         spec, seed=seed, timestep=timestep, data_path=folders, compatibility=quirks
     )
-    with Simulation(model, udp_address=program_options.port_address) as simulation:
+    with Simulation(model, udp_address=udp_address) as simulation:
         print_warnings(model_warnings(model))
+        print_streams(simulation)
         raise_on_interrupt()
         scene_topics = None
         if connections.is_connected or output.record is not None:
@@ -102,12 +123,19 @@ def run(
             scene_topics = SceneTopics(simulation, is_on_bus=connections.is_connected)
         # the live view paces the run itself
         pace_options = replace(connections, speed=0.0) if live_options.view else connections
+        strict_clock = make_strict_clock(simulation, pace_options, strict_options)
         with (
             open_image_process(simulation, pace_options),
-            open_connections(simulation, pace_options),
+            open_connections(simulation, pace_options, strict_clock),
             open_live_view(simulation, spec, run_settings, live_options, connections),
+            nullcontext() if strict_clock is None else hold_garbage(),
         ):
-            run_and_report(simulation, spec, run_settings, output, scene_topics)
+            run_and_report(
+                simulation, spec, run_settings, output, scene_topics, (strict_clock, strict_options)
+            )
+        warn_of_invalid_input(simulation)
+        if strict_clock is not None:
+            raise_if_late(strict_clock.report())
 
 
 @contextmanager
@@ -179,7 +207,7 @@ def check_run_options(
     connections: ConnectionOptions,
     errors: ErrorCollector,
     *,
-    is_viewed: bool = False,
+    is_endless: bool = False,
 ) -> RunSettings:
     """Check the options; collect their errors."""
     from ..algorithms import ALGORITHMS
@@ -189,9 +217,8 @@ def check_run_options(
     settings = [setting for setting in changes.all_settings if setting.startswith(ALGORITHM_PREFIX)]
     connections.check(errors)
     with errors.collect():
-        is_endless = program_options.duration is None and (
-            connections.is_connected or is_viewed or program_options.ardupilot
-        )
+        has_end = not (connections.is_connected or is_endless)
+        is_endless = program_options.duration is None and not has_end
         duration = math.inf if is_endless else read_duration(program_options.duration or "10s")
     with errors.collect():
         if program_options.program is not None:
@@ -224,6 +251,7 @@ def run_and_report(
     settings: RunSettings,
     output: RecordOptions,
     scene_topics: SceneTopics | None = None,
+    strict_run: tuple[StrictClock | None, StrictOptions] | None = None,
 ) -> None:
     """Run, and print the table of topics, even if the run fails or is interrupted."""
     from ..middleware.recording import Recorder, TopicRates
@@ -257,7 +285,7 @@ def run_and_report(
         )
         report_stack.push(
             lambda kind, *_: report_run(
-                simulation, spec, rates, output, is_stopped=kind is not None
+                simulation, spec, rates, output, strict_run, is_stopped=kind is not None
             )
         )
         for _ in run_pieces(simulation, settings.duration, Path(spec.path).stem):
@@ -278,16 +306,28 @@ def report_run(
     spec: SceneSpec,
     rates: TopicRates,
     output: RecordOptions,
+    strict_run: tuple[StrictClock | None, StrictOptions] | None = None,
     *,
     is_stopped: bool,
 ) -> None:
     """Print the table of topics, or that the run was stopped before its first step."""
+    from .output.strict_table import draw_latency, print_strict_report, strict_document
+
+    clock, options = strict_run or (None, None)
+    if clock is not None:
+        clock.stop()
+    strict_report = None if clock is None else clock.report()
+    if strict_report is not None and options is not None and options.latency is not None:
+        draw_latency(strict_report, options.latency)
     if output.as_json:
-        print_json(spec.path, simulation, rates.rates(), output.record)
+        document = None if strict_report is None else strict_document(strict_report)
+        print_json(spec.path, simulation, rates.rates(), output.record, strict_report=document)
     elif is_stopped and simulation.step == 0:
         print(f"{Path(spec.path).name}: stopped before the first step; no topic has a message")
     else:
         print_topics(spec.path, simulation, rates.rates(), output.record)
+        if strict_report is not None:
+            print_strict_report(strict_report)
     for device in simulation.world.devices:
         if isinstance(device, ArduPilotLink):
             report(device.describe())

@@ -29,6 +29,8 @@ class Pace:
             None: no limit.
         now: a function that returns the real time [s].
         sleep: a function that waits for a time [s].
+        on_lag: a function that is called in each step but the first with the lag of the simulation
+            behind real time [s], negative if it is early.
     """
 
     def __init__(
@@ -39,14 +41,25 @@ class Pace:
         max_lag: float | None = None,
         now: Callable[[], float] = time.perf_counter,
         sleep: Callable[[float], None] = time.sleep,
+        on_lag: Callable[[float], None] | None = None,
     ) -> None:
         self._clock, self._real_time_factor = clock, real_time_factor
         self._max_lag = math.inf if max_lag is None else max_lag
-        self._now, self._sleep = now, sleep
+        self._now, self._sleep, self._on_lag = now, sleep, on_lag
         self._wall_start: float | None = None
         self._start_time = 0.0
         self.lost_time = 0.0
         """The sum of the lags that were not caught up [s of real time]."""
+
+    @property
+    def is_started(self) -> bool:
+        """True if the first step has ended, from which on times are due."""
+        return self._wall_start is not None
+
+    def due_at(self, simulation_time: float) -> float:
+        """Return the real time at which a simulation time is due [s]; the pace has started."""
+        assert self._wall_start is not None
+        return self._wall_start + (simulation_time - self._start_time) / self._real_time_factor
 
     def step(self) -> None:
         """Wait until the step is due.
@@ -58,8 +71,9 @@ class Pace:
         if self._wall_start is None:
             self._wall_start, self._start_time = now, self._clock()
             return
-        elapsed_time = self._clock() - self._start_time
-        lead = self._wall_start + elapsed_time / self._real_time_factor - now
+        lead = self.due_at(self._clock()) - now
+        if self._on_lag is not None:
+            self._on_lag(-lead)
         if -lead > self._max_lag:
             raise RunFailed(
                 f"At {self._clock():g} s of simulation time the computer is {-lead:.3g} s late; "

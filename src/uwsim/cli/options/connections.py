@@ -29,6 +29,7 @@ from .web_options import (
 if TYPE_CHECKING:
     from ...middleware.bridge import Bridge
     from ...middleware.connection import ConnectionSpec
+    from ...middleware.strict import StrictClock
     from ...middleware.web.options import WebOptions
     from ...simulation import Simulation
 
@@ -98,7 +99,7 @@ class ConnectionOptions:
             "--max-lag",
             metavar="SECONDS",
             help="The greatest lag, for hardware in the loop: the run ends when the simulation is "
-            "later than this [a late simulation loses time].",
+            "later than this [a late simulation loses time]; --strict counts instead.",
         ),
     ] = None
 
@@ -146,7 +147,7 @@ class ConnectionOptions:
             if self.max_lag is not None and not 0.0 < self.max_lag < float("inf"):
                 raise BadSetting(f"--max-lag {self.max_lag:g}: expected a time > 0 [s].")
             if self.max_lag is not None and self.real_time_factor == 0:
-                raise BadSetting("--max-lag needs a run in real time; add --speed.")
+                raise BadSetting("--max-lag needs a run in real time; add --speed or --strict.")
         with errors.collect():
             if self.ros2:
                 from ...middleware.ros2.choice import check
@@ -186,10 +187,13 @@ class ConnectionOptions:
 
 
 @contextmanager
-def open_connections(simulation: Simulation, options: ConnectionOptions) -> Iterator[None]:
+def open_connections(
+    simulation: Simulation, options: ConnectionOptions, strict_clock: StrictClock | None = None
+) -> Iterator[None]:
     """Connect a simulation to external programs, and pace it, within the block.
 
-    The block begins when all clients in lock-step have joined. An external program may end it.
+    The block begins when all clients in lock-step have joined. An external program may end it. A
+    strict clock paces the simulation instead of the pace of the options.
     """
     from ...simulation.control import Quit
 
@@ -198,7 +202,9 @@ def open_connections(simulation: Simulation, options: ConnectionOptions) -> Iter
             _attach_clients(simulation, bridges, options)
         if bridges:
             _connect_bridges(simulation, bridges)
-        if options.real_time_factor > 0:
+        if strict_clock is not None:
+            simulation.watch(strict_clock.step)
+        elif options.real_time_factor > 0:
             from ...middleware.pacing import Pace
 
             pace = Pace(lambda: simulation.time, options.real_time_factor, max_lag=options.max_lag)

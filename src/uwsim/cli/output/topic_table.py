@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -37,10 +37,15 @@ def print_topics(
 
 
 def print_json(
-    scene: str, simulation: Simulation, rates: Sequence[TopicRate], recording: Path | None
+    scene: str,
+    simulation: Simulation,
+    rates: Sequence[TopicRate],
+    recording: Path | None,
+    *,
+    strict_report: Mapping[str, object] | None = None,
 ) -> None:
     """Print the number and rate of the messages on each topic as JSON."""
-    document = {
+    document: dict[str, object] = {
         "scene": scene,
         "time": simulation.time,
         "steps": simulation.step,
@@ -48,6 +53,8 @@ def print_json(
         "topics": [asdict(rate) for rate in rates],
         "services": list(simulation.bus.services.names),
     }
+    if strict_report is not None:
+        document["strict"] = strict_report
     print(json.dumps(document, indent=1))
 
 

@@ -217,7 +217,8 @@ class ActuatorStream(Device):
             if not piece:
                 break
             pieces.append(piece)
-            if self._is_datagram and self._spec.format == "sentence":
+            is_sentence = self._spec.format == "sentence"
+            if self._is_datagram and is_sentence and not piece.endswith(b"\n"):
                 pieces.append(b"\n")
         data = b"".join(pieces)
         split = split_binary if self._spec.format == "binary" else split_lines

@@ -201,6 +201,11 @@ class InstrumentStream(Device):
         self._publish = publish
 
     @property
+    def is_open(self) -> bool:
+        """True if the stream can send bytes outside."""
+        return self._connection is not None
+
+    @property
     def description(self) -> str:
         """The formats and the other side, for the user."""
         path = self._connection.path if isinstance(self._connection, TerminalStream) else ""
@@ -242,9 +247,13 @@ class InstrumentStream(Device):
         for data, value_time, due_time in self._line.pop_sent(time):
             if self._publish is not None:
                 self._publish(UInt8MultiArray(data=np.frombuffer(data, np.uint8)))
-            is_sent = self._connection is not None and self._connection.send(data)
-            if is_sent and self.observer is not None:
+            if self._connection is None:
+                continue
+            is_sent = self._connection.send(data)
+            if self.observer is not None and is_sent:
                 self.observer.note_sent(self.name, value_time, due_time)
+            elif self.observer is not None:
+                self.observer.note_unsent(self.name)
 
     def idle_until(self, time: float) -> float:
         """Return the time at which the next message has left the line."""

@@ -17,6 +17,9 @@ class StreamObserver(Protocol):
             due_time: the simulation time at which its last byte leaves the line [s].
         """
 
+    def note_unsent(self, name: str) -> None:
+        """Note that a stream could not send a measurement: nobody reads, or a buffer is full."""
+
     def note_command(self, name: str, stamp: float | None) -> None:
         """Note that a stream has applied a command.
 
