@@ -89,6 +89,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "scenarios": (
         TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "virtual_sensors", "scenarios"}
     ),
+    "manoeuvres": TASKS | ENGINES | {"analysis", "manoeuvres"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
@@ -108,6 +109,7 @@ MAY_IMPORT: dict[str, set[str]] = {
             "gap",
             "identification",
             "virtual_sensors",
+            "manoeuvres",
             "scenarios",
             "viewer",
             "cli",

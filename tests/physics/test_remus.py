@@ -9,56 +9,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tests.physics.prestero import THETA, WW, U, simulate, state_rate
 from tests.physics.water_models import bundled
 from uwsim.physics.hydrodynamics.hydrodynamics import install
-
-M, W, B, ZG = 299.0 / 9.81, 299.0, 306.0, 0.0196
-IXX, IYY, IZZ = 0.177, 3.45, 3.45
-MASS = np.array(
-    [
-        [M + 0.93, 0.0, 0.0, 0.0, M * ZG, 0.0],
-        [0.0, M + 35.5, 0.0, -M * ZG, 0.0, -1.93],
-        [0.0, 0.0, M + 35.5, 0.0, 1.93, 0.0],
-        [0.0, -M * ZG, 0.0, IXX + 0.0704, 0.0, 0.0],
-        [M * ZG, 0.0, 1.93, 0.0, IYY + 4.88, 0.0],
-        [0.0, -1.93, 0.0, 0.0, 0.0, IZZ + 4.88],
-    ]
-)
-
-
-def published(state: np.ndarray, rudder: float, planes: float) -> np.ndarray:
-    """The rate of (u v w p q r x y z phi theta psi), with the thesis's totals."""
-    u, v, w, p, q, r, _, _, _, phi, theta, psi = state
-    s1, c1, s2, c2 = math.sin(phi), math.cos(phi), math.sin(theta), math.cos(theta)
-    s3, c3 = math.sin(psi), math.cos(psi)
-    # fmt: off
-    forces = [
-        -(W - B) * s2 - 1.62 * u * abs(u) + (-35.5 - M) * w * q - 1.93 * q**2
-        + (35.5 + M) * v * r - 1.93 * r**2 - M * ZG * p * r + 3.86,
-        (W - B) * c2 * s1 - 1310.0 * v * abs(v) + 0.632 * r * abs(r) - 28.6 * u * v
-        + (35.5 + M) * w * p + (5.22 - M) * u * r - M * ZG * q * r + 1.93 * p * q
-        + 9.64 * u**2 * rudder,
-        (W - B) * c2 * c1 - 1310.0 * w * abs(w) - 0.632 * q * abs(q) - 28.6 * u * w
-        + (-5.22 + M) * u * q + (-35.5 - M) * v * p + M * ZG * (p**2 + q**2) + 1.93 * r * p
-        - 9.64 * u**2 * planes,
-        -ZG * W * c2 * s1 - 0.13 * p * abs(p) - (IZZ - IYY) * q * r - M * ZG * w * p
-        + M * ZG * u * r - 0.543,
-        -ZG * W * s2 + 3.18 * w * abs(w) - 188.0 * q * abs(q) + (4.86 - (IXX - IZZ)) * r * p
-        + M * ZG * v * r - M * ZG * w * q - 2.0 * u * q + 24.0 * u * w - 1.93 * v * p
-        - 6.15 * u**2 * planes,
-        -3.18 * v * abs(v) - 94.0 * r * abs(r) - 24.0 * u * v + (-4.86 - (IYY - IXX)) * p * q
-        - 1.93 * w * p - 2.0 * u * r - 6.15 * u**2 * rudder,
-    ]
-    places = [
-        c3 * c2 * u + (c3 * s2 * s1 - s3 * c1) * v + (s3 * s1 + c3 * c1 * s2) * w,
-        s3 * c2 * u + (c1 * c3 + s1 * s2 * s3) * v + (c1 * s2 * s3 - c3 * s1) * w,
-        -s2 * u + c2 * s1 * v + c1 * c2 * w,
-        p + s1 * s2 / c2 * q + c1 * s2 / c2 * r,
-        c1 * q - s1 * r,
-        s1 / c2 * q + c1 / c2 * r,
-    ]
-    # fmt: on
-    return np.concatenate([np.linalg.solve(MASS, forces), places])
 
 
 def radius(places: np.ndarray) -> float:
@@ -75,7 +28,7 @@ def test_the_remus_turns_with_the_radius_of_the_published_equations(rudder: floa
     start[0] = 1.54
     times = np.arange(0.0, 60.0, 0.5)
     solved = solve_ivp(
-        lambda _, state: published(state, rudder, planes), (0.0, 60.0), start, "DOP853",
+        lambda _, state: state_rate(state, rudder, planes, 1.0), (0.0, 60.0), start, "DOP853",
         times, rtol=1e-8,
     ).y.T  # fmt: skip
     model, _ = bundled("remus100")
@@ -98,3 +51,33 @@ def test_the_remus_turns_with_the_radius_of_the_published_equations(rudder: floa
     assert radius(places[late, :2]) == pytest.approx(expected, rel=0.02)
     # a rudder that pushes the stern to starboard turns the bow to port
     assert places[10, 1] * rudder < 0.0
+
+
+def simulate_dive(planes: float, duration: float) -> np.ndarray:
+    """Return surge, heave (z down) and pitch of the bundled vehicle, each 0.05 s, (n, 3)."""
+    model, _ = bundled("remus100")
+    water, data = install(model), mujoco.MjData(model)
+    data.qvel[0] = 1.54
+    water.set_thrusters(data, [1.0])
+    for name in ("port_plane", "starboard_plane"):
+        water.turn_fin(data, name, planes)
+    rows, rotation = [], np.zeros(9)
+    for _ in range(round(duration / 0.05)):
+        water.step(data, 25)
+        mujoco.mju_quat2Mat(rotation, data.qpos[3:7])
+        world_from_body = rotation.reshape(3, 3)
+        velocity = world_from_body.T @ data.qvel[:3]
+        rows.append([velocity[0], velocity[2], math.asin(world_from_body[2, 0])])
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("planes", [-4.0, -2.0, 0.0, 2.0, 4.0, 8.0, 13.5])
+def test_the_remus_pitches_at_a_step_of_its_planes_as_the_published_equations(
+    planes: float,
+) -> None:
+    """Mean of 30 to 40 s. At -8 deg both are near a fold, from which on they go up steeply."""
+    angle = math.radians(planes)
+    published = simulate(lambda _, state: (0.0, angle, 1.0), 40.0, interval=0.05)
+    ours = simulate_dive(angle, 40.0)
+    late = published[-200:, [1 + U, 1 + WW, 1 + THETA]].mean(axis=0)
+    assert ours[-200:].mean(axis=0) == pytest.approx(late, rel=0.05)

@@ -114,6 +114,15 @@ COMMANDS: dict[str, Command] = {
         summary="List scenes, benchmarks, algorithms and parts that have names.",
         examples=("uwsim list", "uwsim list benchmarks"),
     ),
+    "manoeuvres": Command(
+        module="vehicles.manoeuvres",
+        function="manoeuvres",
+        summary="Measure how a vehicle turns, stops and holds its course.",
+        examples=(
+            "uwsim manoeuvres remus-scene",
+            "uwsim manoeuvres my-scene.xml --vehicle my_rov -o my-rov-manoeuvres",
+        ),
+    ),
     "play": Command(
         module="play",
         function="play",

@@ -1,0 +1,1 @@
+"""Commands about vehicles: how they move."""

@@ -1,0 +1,1 @@
+"""Manoeuvres and tank experiments of a vehicle, and their report."""
