@@ -10,7 +10,7 @@ names, levels that never end. Errors of a binding (`uwsim.benchmark.unknown_name
 compilation (`uwsim.model.dynamics`) are raised there; rules report them for a whole file.
 """
 
-from .check import check_file, model_warnings, scene_warnings
+from .check import ArduPilotCheck, check_file, model_warnings, scene_warnings
 from .rule import Need, Rule
 
-__all__ = ["Need", "Rule", "check_file", "model_warnings", "scene_warnings"]
+__all__ = ["ArduPilotCheck", "Need", "Rule", "check_file", "model_warnings", "scene_warnings"]

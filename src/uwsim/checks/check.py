@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import chain, groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,6 +16,7 @@ from .benchmark_tables import read_plugins
 from .rule import Need
 
 if TYPE_CHECKING:
+    from ..autopilots.ardupilot.frames import Frame
     from ..benchmark.plugin import Plugin
     from ..benchmark.plugin_tables import Tables
     from ..model.scene_model import SceneModel
@@ -25,6 +27,14 @@ MAX_MACROS = 12
 """The greatest number of macros or properties of a library that are listed."""
 
 
+@dataclass(frozen=True)
+class ArduPilotCheck:
+    """The request to check the vehicles of a scene for ArduPilot."""
+
+    frame: Frame | None = None
+    """The frame of ArduSub, or the steering of ArduRover; None for the one that fits best."""
+
+
 def check_file(
     file: Path,
     *,
@@ -33,6 +43,7 @@ def check_file(
     scene: Path | None = None,
     plugins: tuple[tuple[Plugin, ...], Tables] | None = None,
     arguments: Mapping[str, str] | None = None,
+    ardupilot: ArduPilotCheck | None = None,
 ) -> list[Diagnostic]:
     """Return the errors and warnings about a file; its root element determines its kind.
 
@@ -45,6 +56,7 @@ def check_file(
         scene: the scene of a benchmark; None for the scene that the benchmark names.
         plugins: the result of `read_plugins`; None for the bundled tables.
         arguments: the values of xacro arguments, by name.
+        ardupilot: the rules of scenes about ArduPilot that are applied too; None for none of them.
     """
     from ..scene.reader import ROOT
     from ..scene.xacro import library_of
@@ -65,7 +77,7 @@ def check_file(
         plugin_list, tables = plugins or read_plugins(())
         return _check_benchmark(file, is_strict, scene, data_path, plugin_list, tables, arguments)
     if root == ROOT:
-        return _check_scene(file, is_strict, data_path, arguments)
+        return _check_scene(file, is_strict, data_path, arguments, ardupilot)
     if root == "hydrodynamics":
         return _check_hydrodynamics(file)
     message = (
@@ -78,7 +90,11 @@ def check_file(
 
 
 def _check_scene(
-    path: Path, is_strict: bool, data_path: tuple[Path, ...], arguments: Mapping[str, str] | None
+    path: Path,
+    is_strict: bool,
+    data_path: tuple[Path, ...],
+    arguments: Mapping[str, str] | None,
+    ardupilot: ArduPilotCheck | None,
 ) -> list[Diagnostic]:
     from ..scene.reader import read_document
     from ..scene.xacro import parse_expanded
@@ -92,7 +108,8 @@ def _check_scene(
     spec = read_document(document, diagnostics)
     if spec is None:
         return [*document.expansion.warnings, *diagnostics.to_list()]
-    return _apply(CheckedScene(spec, data_path, document=document, diagnostics=diagnostics))
+    scene = CheckedScene(spec, data_path, document=document, diagnostics=diagnostics)
+    return _apply(scene, ardupilot)
 
 
 def scene_warnings(
@@ -119,14 +136,15 @@ def model_warnings(model: SceneModel) -> list[Diagnostic]:
     )
 
 
-def _apply(scene: CheckedScene) -> list[Diagnostic]:
+def _apply(scene: CheckedScene, ardupilot: ArduPilotCheck | None = None) -> list[Diagnostic]:
     """Apply the rules in order, each if the input that it needs could be made.
 
     Diagnostics about the spec are sorted by line, together with the diagnostics of the reader.
     """
-    from .table import SCENE_RULES
+    from .table import SCENE_RULES, ardupilot_rules
 
     rules = [rule for rule in SCENE_RULES if (rule.in_runs if scene.is_run else rule.in_check)]
+    rules += () if ardupilot is None else ardupilot_rules(ardupilot.frame)
     diagnostics: list[Diagnostic] = []
     failed_needs: set[Need] = set()
     for need, group in groupby(rules, key=lambda rule: rule.need):

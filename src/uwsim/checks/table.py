@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from functools import partial
 
+from ..autopilots.ardupilot.frames import Frame
 from . import benchmarks, robots
+from .autopilot import ardupilot
 from .model import (
     bottom,
     dynamics,
@@ -102,6 +104,23 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(dynamics.missing_floors, Need.VALID),
 )
 """Rules about a scene file, and about a scene that is about to run."""
+
+
+def ardupilot_rules(frame: Frame | None) -> tuple[Rule[CheckedScene], ...]:
+    """Return the rules about vehicles that ArduPilot steers, which only a request applies.
+
+    Args:
+        frame: the frame of ArduSub, or the steering of ArduRover; None for the one that fits best.
+    """
+    return (
+        Rule(ardupilot.presence, Need.MODEL),
+        Rule(ardupilot.body_axes, Need.MODEL),
+        Rule(partial(ardupilot.thruster_layout, frame=frame), Need.MODEL),
+        Rule(ardupilot.navigation, Need.MODEL),
+        Rule(ardupilot.exchange_rate, Need.MODEL),
+        Rule(ardupilot.buoyancy, Need.MODEL),
+    )
+
 
 BENCHMARK_RULES: tuple[Rule[CheckedBenchmark], ...] = (
     Rule(benchmarks.unknown_algorithm, Need.SPEC),

@@ -11,14 +11,15 @@ from typing import Annotated
 import typer
 
 from ..assets.bundled import resolve_bundled
+from ..autopilots.ardupilot.frames import FRAMES, find_frame
 from ..base.terminal import clean_text
-from ..checks import check_file
+from ..checks import ArduPilotCheck, check_file
 from ..checks.benchmark_tables import read_plugins
 from ..errors import Diagnostic, ErrorCollector
 from ..runs.planning.option_values import pairs_of
 from ..scene.settings import xacro_arguments
 from .exit_status import INVALID_INPUT
-from .options.completion import checked_names, scene_names
+from .options.completion import checked_names, complete_names, scene_names
 from .options.help_texts import INPUT, option
 from .options.options import DataPathOption, JsonOption, PluginOption, XacroOption, xacro_settings
 
@@ -50,12 +51,33 @@ def check(
             help="Also check the order of elements, which the original UWSim prescribes.",
         ),
     ] = False,
+    is_for_ardupilot: Annotated[
+        bool,
+        option(
+            INPUT,
+            "--ardupilot",
+            help="Also check the vehicles of scenes against ArduPilot: thrusters, axes, sensors.",
+        ),
+    ] = False,
+    frame: Annotated[
+        str | None,
+        option(
+            INPUT,
+            "--frame",
+            metavar="FRAME",
+            help="The frame of ArduPilot (vectored_6dof, ..., skid_steering), or FRAME_CONFIG; "
+            "by default the one that fits best. Implies --ardupilot.",
+            autocompletion=complete_names(tuple(entry.name for entry in FRAMES)),
+        ),
+    ] = None,
     xacro: XacroOption = None,
     as_json: JsonOption = False,
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
 ) -> None:
     """Report all errors of scene, robot, hydrodynamics and benchmark files, with line numbers.
+
+    With --ardupilot, mirrored, exchanged and reversed thrusters of a vehicle are errors, too.
 
     Python code that these files name is located but not run; the code of a --plugin is run.
 
@@ -66,6 +88,9 @@ def check(
     folders = tuple(data_path or ())
     plugins = read_plugins(plugin)
     arguments = xacro_arguments(pairs_of(xacro_settings(xacro), ErrorCollector()))
+    ardupilot = None
+    if frame is not None or is_for_ardupilot:
+        ardupilot = ArduPilotCheck(None if frame is None else find_frame(frame))
     paths = [resolve_bundled(file) for file in files]
     scene = None if scene is None else resolve_bundled(scene)
     reports = {
@@ -76,6 +101,7 @@ def check(
             scene=scene,
             plugins=plugins,
             arguments=arguments,
+            ardupilot=ardupilot,
         )
         for file in [*paths, *([scene] if scene is not None and scene not in paths else [])]
     }

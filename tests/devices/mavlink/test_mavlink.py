@@ -52,7 +52,7 @@ SENSORS = (
 
 def write_scene(folder: Path, address: str, content: str = SENSORS) -> Path:
     text = bundled_files("scenes")["bluerov2-scene"].read_text()
-    text = re.sub(r"<u:ardupilot>.*?</u:ardupilot>", "", text, flags=re.DOTALL)
+    text = re.sub(r"<u:(ardupilot|mavlink)>.*?</u:\1>", "", text, flags=re.DOTALL)
     element = ELEMENT.format(address=address, content=content)
     path = folder / "scene.xml"
     path.write_text(text.replace("<u:dynamics>bluerov2_heavy</u:dynamics>", element))
@@ -245,6 +245,16 @@ def test_without_a_connection_the_device_does_nothing(model: SceneModel) -> None
         device = next(d for d in simulation.world.devices if isinstance(d, MavlinkDevice))
         assert device.idle_until(0.0) == math.inf
         simulation.advance(0.1)
+
+
+def test_without_pymavlink_the_device_does_nothing_and_names_the_extra(
+    model: SceneModel, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with Simulation(model, is_blind=True, udp_address="127.0.0.1") as simulation:
+        monkeypatch.undo()
+        simulation.advance(0.1)
+    assert "pip install 'uwsim[mavlink]'" in capsys.readouterr().err
 
 
 def test_an_invalid_address_is_reported_with_its_form(tmp_path: Path) -> None:

@@ -30,15 +30,14 @@ class LinkState(Record):
 class Link:
     """A link; without a stream, nothing is sent and nothing received."""
 
-    def __init__(self, stream: ByteStream | None) -> None:
-        self._stream = stream
-        self._codec = None if stream is None else Codec()
+    def __init__(self, stream: ByteStream | None = None, codec: Codec | None = None) -> None:
+        self._stream, self._codec = stream, codec
         self.state = LinkState()
         """The counters, and the bytes that have arrived."""
 
     @property
     def is_open(self) -> bool:
-        """True if the simulation has connections."""
+        """True if there is a stream."""
         return self._stream is not None
 
     @property

@@ -3,7 +3,7 @@
 .. code-block:: xml
 
     <u:mavlink>
-      <name>bluerov2/mavlink</name> <address>tcp:127.0.0.1:5760</address>
+      <name>bluerov2/mavlink</name> <address>tcp:127.0.0.1:5762</address>
       <dvl>/bluerov2/dvl</dvl> <odometry>/bluerov2/odom</odometry> <range>/bluerov2/altitude</range>
     </u:mavlink>
 
@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...autopilots.mavlink import Identity, Message, commands
+from ...autopilots.mavlink import Codec, Identity, Message, commands
 from ...autopilots.mavlink.status import (
     ACK_RESULTS,
     AutopilotStatus,
@@ -30,7 +30,8 @@ from ...autopilots.mavlink.status import (
 )
 from ...base.geometry import ZERO, Triple, quaternion_from_rotation, rotation_from_rpy
 from ...base.record import Record
-from ...base.terminal import report
+from ...base.terminal import report, warn
+from ...errors import MissingExtra
 from ...messages import DVL, Bool, Odometry, Point, PoseStamped, Quaternion, Range, String, header
 from ...messages import Pose as PoseMessage
 from ...schema import MAX_DISTANCE, element
@@ -74,9 +75,10 @@ class MavlinkSpec(DeviceSpec):
 
     name: str = "mavlink"
     """The name of the device, which begins its topics; it must be unique in the scene."""
-    address: str = "tcp:127.0.0.1:5760"
-    """The address of the autopilot: ``tcp:HOST:PORT`` of a server, ``udpin:`` or ``udpout:``. The
-    nth SITL of ArduPilot (from 0) listens at the TCP port 5760 + 10 n."""
+    address: str = "tcp:127.0.0.1:5762"
+    """The address of the autopilot: ``tcp:HOST:PORT`` of a server, ``udpin:`` or ``udpout:``.
+    ArduPilot's simulation n (from 0) listens at the TCP ports 5760 + 10 n, which MAVProxy takes if
+    ``sim_vehicle.py`` starts it, and 5762 + 10 n, its second serial port."""
     dvl: str = ""
     """The topic of a DVL (underwater_sensor_msgs/DVL), sent as VISION_POSITION_DELTA."""
     odometry: str = ""
@@ -105,8 +107,15 @@ class MavlinkSpec(DeviceSpec):
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MavlinkDevice:
         """Open the connection, if the simulation has any, and subscribe to the topics."""
         connections = world.connections
-        stream = None if connections is None else connections.open(self.address)
-        return MavlinkDevice(self, world, vehicle, Link(stream))
+        try:
+            codec = None if connections is None else Codec()
+        except MissingExtra as error:
+            codec = None
+            warn(f"<u:mavlink> of {vehicle.name} does nothing. {error}")
+        link = Link()
+        if connections is not None and codec is not None:
+            link = Link(connections.open(self.address), codec)
+        return MavlinkDevice(self, world, vehicle, link)
 
 
 @dataclass(slots=True)

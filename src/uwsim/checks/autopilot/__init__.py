@@ -1,0 +1,1 @@
+"""Rules about vehicles that ArduPilot steers: ``uwsim check SCENE --ardupilot``."""
