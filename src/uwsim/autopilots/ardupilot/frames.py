@@ -49,13 +49,13 @@ class Frame:
         return FIRST_MOTOR_FUNCTION + motor
 
 
-_VECTORED: tuple[Factors, ...] = (
+_HORIZONTAL_MOTORS: tuple[Factors, ...] = (
     (0, 0, 1, 0, -1, 1),
     (0, 0, -1, 0, -1, -1),
     (0, 0, -1, 0, 1, 1),
     (0, 0, 1, 0, 1, -1),
 )
-_SIMPLE: tuple[Factors, ...] = (
+_SIMPLE_MOTORS: tuple[Factors, ...] = (
     (0, 0, -1, 0, 1, 0),
     (0, 0, 1, 0, 1, 0),
     (1, 0, 0, -1, 0, 0),
@@ -75,12 +75,12 @@ FRAMES = (
             (-0.25, 0, 0, 0, 0, 1),
         ),
     ),
-    Frame("vectored", 1, (*_VECTORED, (1, 0, 0, -1, 0, 0), (-1, 0, 0, -1, 0, 0))),
+    Frame("vectored", 1, (*_HORIZONTAL_MOTORS, (1, 0, 0, -1, 0, 0), (-1, 0, 0, -1, 0, 0))),
     Frame(
         "vectored_6dof",
         2,
         (
-            *_VECTORED,
+            *_HORIZONTAL_MOTORS,
             (1, -1, 0, -1, 0, 0),
             (-1, -1, 0, -1, 0, 0),
             (1, 1, 0, -1, 0, 0),
@@ -101,10 +101,10 @@ FRAMES = (
             (-1, -1, 0, 1, 0, 0),
         ),
     ),
-    Frame("simplerov-3", 4, (*_SIMPLE[:2], (0, 0, 0, -1, 0, 0))),
-    Frame("simplerov-4", 5, _SIMPLE),
-    Frame("simplerov-5", 6, _SIMPLE),
-    Frame("custom", 7, (*_SIMPLE[:2], (0, 0, 0, -1, 0, 0))),
+    Frame("simplerov-3", 4, (*_SIMPLE_MOTORS[:2], (0, 0, 0, -1, 0, 0))),
+    Frame("simplerov-4", 5, _SIMPLE_MOTORS),
+    Frame("simplerov-5", 6, _SIMPLE_MOTORS),
+    Frame("custom", 7, (*_SIMPLE_MOTORS[:2], (0, 0, 0, -1, 0, 0))),
     Frame("skid_steering", None, ((0, 0, 1, 0, 1, 0), (0, 0, -1, 0, 1, 0))),
 )
 """The frames. In ArduPilot's source, simplerov-4 has the motors of simplerov-5. The frame custom is

@@ -164,23 +164,23 @@ def _fitting_frame(motors: dict[int, Motor]) -> Frame | None:
 def body_axes(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report a base whose z axis is not the one that ArduPilot is sent."""
     for vehicle in steered_vehicles(scene):
-        upright = float(vehicle.up[2])
+        cosine = float(vehicle.up[2])
         name, axes = vehicle.spec.name, vehicle.autopilot.axes
-        if abs(upright) < MIN_UPRIGHT:
-            angle = math.degrees(math.acos(min(1.0, abs(upright))))
+        if abs(cosine) < MIN_UPRIGHT:
+            angle = math.degrees(math.acos(min(1.0, abs(cosine))))
             message = (
                 f"the vehicle {name!r}: the z axis of its base is {angle:.0f} degrees from the "
                 "vertical at the start; expected up or down, with x forward. Set <axes> frd or flu"
             )
             yield scene.warning(vehicle.source, message, "axes")
             continue
-        specific_force = GRAVITY * upright * (1.0 if vehicle.is_z_down else -1.0)
+        specific_force = GRAVITY * cosine * (1.0 if vehicle.is_z_down else -1.0)
         if specific_force > 0.0:
-            right_axes = "flu" if upright > 0.0 else "frd"
+            right_axes = "flu" if cosine > 0.0 else "frd"
             message = (
                 f"the vehicle {name!r}: accel_body at rest is (0, 0, {specific_force:+.2f}) m/s2; "
                 f"expected (0, 0, {-GRAVITY:.2f}). The z axis of the base points "
-                f"{'up' if upright > 0.0 else 'down'}: set <axes> {right_axes}, not {axes}"
+                f"{'up' if cosine > 0.0 else 'down'}: set <axes> {right_axes}, not {axes}"
             )
             yield scene.error(vehicle.source, message, "axes")
 
@@ -210,13 +210,15 @@ def buoyancy(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of a vehicle that needs much of its vertical thrust to hold its depth."""
     for vehicle in steered_vehicles(scene):
         excess = GRAVITY * (vehicle.balance.displaced_mass - vehicle.balance.mass)  # [N]
-        available = sum(_vertical_thrust(thruster, vehicle.up) for thruster in vehicle.thrusters)
-        if available > 0.0 and abs(excess) > MAX_HEAVE_SHARE * available:
+        vertical_thrust = sum(
+            _vertical_thrust(thruster, vehicle.up) for thruster in vehicle.thrusters
+        )
+        if vertical_thrust > 0.0 and abs(excess) > MAX_HEAVE_SHARE * vertical_thrust:
             way = "floats up" if excess > 0.0 else "sinks"
             message = (
                 f"the vehicle {vehicle.spec.name!r} {way} with {abs(excess):.3g} N, which takes "
-                f"{100 * abs(excess) / available:.0f} % of its vertical thrust; ArduSub expects "
-                "neutral buoyancy, a little positive"
+                f"{100 * abs(excess) / vertical_thrust:.0f} % of its vertical thrust; ArduSub "
+                "expects neutral buoyancy, a little positive"
             )
             yield scene.warning(vehicle.source, message)
 

@@ -86,24 +86,24 @@ def find_differences(motors: Mapping[int, Motor], frame: Frame) -> list[Finding]
         frame: the frame.
     """
     reaches = _greatest_moments(list(motors.values()))
-    differing = [
+    indices = [
         index
         for index, motor in motors.items()
         if index < len(frame.motors) and not _agrees(motor, frame.motors[index], reaches)
     ]
     findings = list(_find_counts(motors, frame))
-    reverse = [
-        index
-        for index in differing
-        if _agrees(_negate(motors[index]), frame.motors[index], reaches)
+    reversed_indices = [
+        index for index in indices if _agrees(_negate(motors[index]), frame.motors[index], reaches)
     ]
-    findings += [_describe_reversal(motors[index], index, frame) for index in reverse]
-    others = [index for index in differing if index not in reverse]
-    order = _find_order(others, motors, frame, reaches)
+    findings += [_describe_reversal(motors[index], index, frame) for index in reversed_indices]
+    other_indices = [index for index in indices if index not in reversed_indices]
+    order = _find_order(other_indices, motors, frame, reaches)
     if order:
         findings.append(_describe_order(order, motors, frame))
     else:
-        findings += [_describe_mirror(motors[index], index, frame, reaches) for index in others]
+        findings += [
+            _describe_mirror(motors[index], index, frame, reaches) for index in other_indices
+        ]
     return findings
 
 
@@ -114,11 +114,11 @@ def _find_counts(motors: Mapping[int, Motor], frame: Frame) -> Iterator[Finding]
         numbers = ", ".join(map(str, lost))
         text = f"{frame.title} has {len(frame.motors)} motors; nothing is at motor {numbers}"
         yield Finding((), text)
-    surplus = [motor for index, motor in motors.items() if index >= len(frame.motors)]
-    if surplus:
-        names = ", ".join(repr(motor.thruster) for motor in surplus)
+    surplus_motors = [motor for index, motor in motors.items() if index >= len(frame.motors)]
+    if surplus_motors:
+        names = ", ".join(repr(motor.thruster) for motor in surplus_motors)
         text = f"{frame.title} has {len(frame.motors)} motors and does not drive {names}"
-        yield Finding(tuple(motor.channel for motor in surplus), text)
+        yield Finding(tuple(motor.channel for motor in surplus_motors), text)
 
 
 def _greatest_moments(motors: Sequence[Motor]) -> Array:
@@ -152,7 +152,7 @@ def _negate(motor: Motor) -> Motor:
 def _find_order(
     indices: Sequence[int], motors: Mapping[int, Motor], frame: Frame, reaches: Array
 ) -> dict[int, int]:
-    """Return the motor of the frame that each differing motor is, by index; empty if none fits.
+    """Return the motor of the frame that each of some motors is, by index; empty if none fits.
 
     Every motor of ``indices`` must be another one of them, perhaps reversed.
     """
@@ -169,12 +169,12 @@ def _find_order(
     }
     sources: dict[int, int] = {}  # by target
 
-    def assign(source: int, visited: set[int]) -> bool:
+    def assign(source: int, targets: set[int]) -> bool:
         for target in fits[source]:
-            if target in visited:
+            if target in targets:
                 continue
-            visited.add(target)
-            if target not in sources or assign(sources[target], visited):
+            targets.add(target)
+            if target not in sources or assign(sources[target], targets):
                 sources[target] = source
                 return True
         return False
@@ -258,9 +258,9 @@ def _fits_mirrored(
     factors: Factors,
     reaches: Array,
 ) -> bool:
-    mirrored = replace(
+    changed_motor = replace(
         motor,
         position=motor.position * np.array([*position_signs, 1]),
         direction=motor.direction * np.array(direction_signs),
     )
-    return _agrees(mirrored, factors, reaches)
+    return _agrees(changed_motor, factors, reaches)

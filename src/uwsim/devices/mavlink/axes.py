@@ -51,7 +51,7 @@ class HomeFrame:
 
     @property
     def origin(self) -> Array:
-        """North, east, down of home from the origin of W, (3,) [m]."""
+        """The position of home from the origin of W, north, east, down (3,) [m]."""
         return product(NED_FROM_WORLD, self._home)
 
     def position(self, point: Array) -> Array:
