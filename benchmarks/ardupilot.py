@@ -127,32 +127,32 @@ def exchange(
     if flooding is not None:
         flooding.kill()
     output, _ = stand_in.communicate(timeout=60.0)
-    _, missing, repeats = map(int, output.split()[1:])
+    _, n_missing, n_repeats = map(int, output.split()[1:])
     return {
         "cpu_us": 1e6 * cpu / n,
         "wall_us": 1e6 * wall / n,
-        "missing_steps": missing,
-        "repeats": repeats,
+        "missing_steps": n_missing,
+        "repeats": n_repeats,
         "received_again": state.n_duplicates,
         "other_senders": state.n_others,
     }
 
 
 def measure() -> dict[str, object]:
-    quiet = exchange(N_EXCHANGES)
+    figures = exchange(N_EXCHANGES)
     lossy = exchange(N_LOSSY, loss=0.01, timeout=0.02)
-    beside = [exchange(N_FLOODED, flood="unread port") for _ in range(2)]
-    flooded = [exchange(N_FLOODED, flood="port") for _ in range(2)]
-    ratio = min(r["wall_us"] for r in beside) / min(r["wall_us"] for r in flooded)
+    baselines = [exchange(N_FLOODED, flood="unread port") for _ in range(2)]
+    floods = [exchange(N_FLOODED, flood="port") for _ in range(2)]
+    ratio = min(r["wall_us"] for r in baselines) / min(r["wall_us"] for r in floods)
     return {
-        "exchange_cpu_us": upper_target_figure(round(quiet["cpu_us"], 1), 250.0),
-        "exchange_wall_us": round(quiet["wall_us"], 1),
-        "times_real_time": round(1e6 / RATE / quiet["wall_us"], 1),
+        "exchange_cpu_us": upper_target_figure(round(figures["cpu_us"], 1), 250.0),
+        "exchange_wall_us": round(figures["wall_us"], 1),
+        "times_real_time": round(1e6 / RATE / figures["wall_us"], 1),
         "losses": {**lossy, "exchanges": N_LOSSY},
         "flood": {
             "rate_ratio": round(ratio, 3),
             "target": 0.98,
-            "other_senders_counted": max(r["other_senders"] for r in flooded),
+            "other_senders_counted": max(r["other_senders"] for r in floods),
         },
     }
 

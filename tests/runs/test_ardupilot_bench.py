@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.ardupilot_stub import Law, Stub, free_port
-from tests.support.pid_autopilot import PidAutopilot, along_square, hold
+from tests.support.pid_autopilot import PidAutopilot, square_path, hold
 from uwsim.api import read_result
 from uwsim.cli import main as uwsim
 
@@ -69,7 +69,7 @@ def test_a_pid_controller_keeps_the_station(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_a_pid_controller_drives_the_square(tmp_path: Path) -> None:
     out = tmp_path / "square.result"
-    status, _ = bench("square.xml", out, PidAutopilot(along_square(1.0, 1.5, 0.15)))
+    status, _ = bench("square.xml", out, PidAutopilot(square_path(1.0, 1.5, 0.15)))
     assert status == 0
     errors = column_of(out, "pathError")
     assert max(errors) < 0.1

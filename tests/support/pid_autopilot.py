@@ -34,7 +34,7 @@ def hold(position: Sequence[float]) -> Target:
     return lambda time: position
 
 
-def along_square(side: float, depth: float, speed: float) -> Target:
+def square_path(side: float, depth: float, speed: float) -> Target:
     """Return the place on a square that is driven again and again, from the first call on."""
     corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]
 
@@ -83,13 +83,13 @@ class PidAutopilot:
             error, speed = goal - state["position"][i], (next_goal - goal) / DELTA
             self.integral[i] = min(1.0, max(-1.0, self.integral[i] + KI * error * step))
             demands.append(KP * error + self.integral[i] + KD * (speed - state["velocity"][i]))
-        forward, lateral, down = (
+        surge, sway, down = (
             sum(axes_in_ned[row][column] * demands[row] for row in range(3)) for column in range(3)
         )
         gyro = state["imu.gyro"]
         axes = (
             -0.8 * roll - 0.3 * gyro[0], -0.8 * pitch - 0.3 * gyro[1], -0.6 * yaw - 0.3 * gyro[2],
-            -down, forward, lateral,
+            -down, surge, sway,
         )  # fmt: skip
         return [
             1500 + round(400.0 * min(1.0, max(-1.0, sum(map(float.__mul__, motor, axes)))))

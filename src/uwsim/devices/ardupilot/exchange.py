@@ -235,7 +235,7 @@ class Exchange:
             "invalid": state.n_invalid,
             "of other senders": state.n_others,
         }
-        events = ", ".join(f"{n} {name}" for name, n in counts.items() if n)
+        events = ", ".join(f"{name} {n}" for name, n in counts.items() if n)
         return f"ArduPilot on {self.place}: {state.n_exchanges} frames" + (
             f"; packets: {events}" if events else ""
         )
