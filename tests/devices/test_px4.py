@@ -20,6 +20,8 @@ from uwsim.devices.ardupilot.spec import ArduPilotSpec
 from uwsim.devices.px4 import Px4Spec
 from uwsim.devices.px4.px4 import BLUEROV2_MOTORS, Motors, Px4
 from uwsim.errors import BadSetting, ClientLost, UnknownName, UwsimError
+from uwsim.runs.planning.ardupilot_scene import connect_ardupilot
+from uwsim.runs.planning.px4_scene import connect_px4
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
@@ -84,7 +86,7 @@ def test_two_runs_exchange_the_same_bytes() -> None:
 
 
 def test_the_noise_of_the_start_does_not_change_the_run() -> None:
-    """The real PX4 starts after a number of messages that differs from run to run."""
+    """Start after another number of messages, as the real PX4 does from run to run."""
     first = run(hold_depth, steps=20)[1].sensors[1]
     port = find_free_port()
     with open_simulation(port) as simulation:
@@ -113,9 +115,9 @@ def test_no_sensor_repeats_its_value() -> None:
     _, px4 = run(lambda _: ())
     for name in ("xacc", "xgyro", "xmag", "abs_pressure"):
         values = [getattr(sensor, name) for sensor in px4.sensors]
-        equal = [a == b for a, b in pairwise(values)]
-        longest = max(len(run) for run in "".join("=" if e else " " for e in equal).split(" "))
-        assert longest < 5, name
+        repeats = [a == b for a, b in pairwise(values)]
+        n_repeats = max(len(run) for run in "".join("=" if e else " " for e in repeats).split(" "))
+        assert n_repeats < 5, name
 
 
 def test_the_other_messages_have_their_rates_and_come_before_the_sensors() -> None:
@@ -160,7 +162,7 @@ def test_the_true_state_is_that_of_the_simulation() -> None:
 def test_the_outputs_move_the_vehicle_as_the_airframe_of_px4(
     outputs: tuple[float, ...], axis: int, sign: float
 ) -> None:
-    """The signs follow from the axes CA_ROTORn_A and positions CA_ROTORn_P of airframe 60002."""
+    """Derive the signs from the axes CA_ROTORn_A and positions CA_ROTORn_P of airframe 60002."""
     expected = np.zeros(6)
     axes = [(1, -1, 0), (1, 1, 0), (1, 1, 0), (1, -1, 0)]
     axes += [(0, 0, -1), (0, 0, 1), (0, 0, 1), (0, 0, -1)]
@@ -264,3 +266,27 @@ def test_an_output_names_its_thruster_and_its_sign() -> None:
         Motors(("rigth",), ("left", "right"))
     with pytest.raises(BadSetting, match="at most 16"):
         Motors(("left",) * 17, ("left", "right"))
+
+
+def test_a_board_whose_z_axis_points_up_is_an_error() -> None:
+    spec = Px4Spec(orientation=(math.pi, 0.0, 0.0))
+    with pytest.raises(BadSetting, match="points up"):
+        open_scene(scene_with(spec), is_blind=True)
+
+
+def test_a_run_with_px4_has_no_other_autopilot() -> None:
+    scene = connect_px4(read_scene(bundled_files("scenes")["bluerov2-scene"]))
+    (vehicle,) = scene.vehicles
+    assert vehicle.parts_of(Px4Spec) == (Px4Spec(),)
+    assert vehicle.parts_of(ArduPilotSpec) == ()
+    (vehicle,) = connect_ardupilot(scene).vehicles
+    assert vehicle.parts_of(Px4Spec) == ()
+
+
+def test_a_scene_without_dynamics_or_with_one_port_for_two_is_an_error() -> None:
+    with pytest.raises(BadSetting, match="dynamics"):
+        connect_px4(read_scene(bundled_files("scenes")["cirs"]))
+    scene = scene_with(Px4Spec())
+    twice = replace(scene, vehicles=scene.vehicles * 2)
+    with pytest.raises(BadSetting, match="4560"):
+        connect_px4(twice)

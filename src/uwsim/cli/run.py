@@ -15,11 +15,13 @@ from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import print_warnings, report, warn
 from ..base.tracked_parameters import describe_unread_parameters
 from ..devices.ardupilot import ArduPilotLink
+from ..devices.px4 import Px4
 from ..errors import BadSetting, ErrorCollector, RunFailed
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.ardupilot_scene import connect_ardupilot, exchange_timestep
 from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
+from ..runs.planning.px4_scene import connect_px4
 from ..runs.program import load_program
 from ..runs.substituted_files import warn_of_substituted_files
 from ..world import TIMESTEP
@@ -91,6 +93,11 @@ def run(
     with errors.collect():
         if spec is not None and program_options.ardupilot:
             spec = connect_ardupilot(spec)
+    with errors.collect():
+        if spec is not None and program_options.px4:
+            if program_options.ardupilot:
+                raise BadSetting("--ardupilot and --px4 exclude each other.")
+            spec = connect_px4(spec)
     quirks = compatibility_of(changes.compat or [], errors)
     with errors.collect():
         live_options.check()
@@ -102,7 +109,7 @@ def run(
         changes,
         connections,
         errors,
-        is_endless=(live_options.view or strict_options.is_strict or program_options.ardupilot),
+        is_endless=(live_options.view or strict_options.is_strict or program_options.has_autopilot),
     )
     errors.raise_errors()
     assert spec is not None
@@ -329,7 +336,7 @@ def report_run(
         if strict_report is not None:
             print_strict_report(strict_report)
     for device in simulation.world.devices:
-        if isinstance(device, ArduPilotLink):
+        if isinstance(device, ArduPilotLink | Px4):
             report(device.describe())
 
 

@@ -21,7 +21,7 @@ def test_every_packet_of_a_real_ardusub_is_read() -> None:
 
 
 def test_the_same_packets_get_the_same_answers() -> None:
-    """Compare; after a change of physics: ``python -m tests.support.recorded_exchange --answers``."""
+    """Compare; ``python -m tests.support.recorded_exchange --answers`` after a new physics."""
     expected = json.loads(ANSWERS.read_text())
     answers = describe_answers(replay(read_packets()))
     assert answers["seconds"] == expected["seconds"]

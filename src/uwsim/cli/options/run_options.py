@@ -10,6 +10,7 @@ from .ardupilot_option import ArduPilotOption
 from .completion import algorithm_names, complete_names
 from .help_texts import INPUT, OUTPUT, RUN, option
 from .options import JsonOption
+from .px4_option import Px4Option
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,13 +50,19 @@ class ProgramOptions:
         ),
     ] = None
     ardupilot: ArduPilotOption = False
+    px4: Px4Option = False
+
+    @property
+    def has_autopilot(self) -> bool:
+        """True if an autopilot outside steers."""
+        return self.ardupilot or self.px4
 
     @property
     def port_address(self) -> str | None:
-        """The address of this computer at which UDP ports are opened; None: none are."""
+        """The address of this computer at which ports are opened; None: none are."""
         from ...runs.planning.ardupilot_scene import ADDRESS
 
-        return self.udp_address or (ADDRESS if self.ardupilot else None)
+        return self.udp_address or (ADDRESS if self.has_autopilot else None)
 
 
 SeedOption = Annotated[int, option(RUN, "--seed", metavar="N", min=0, help="Random seed.")]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from .px4 import Px4Spec
+from .px4 import Px4, Px4Spec
 
-__all__ = ["Px4Spec"]
-"""The spec of ``<u:px4>``."""
+__all__ = ["Px4", "Px4Spec"]

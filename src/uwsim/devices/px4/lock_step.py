@@ -22,9 +22,15 @@ from ...autopilots.px4 import (
     encode_frame,
 )
 from ...base.record import Record
+from ...base.terminal import report
 from ...errors import ClientLost
 from ...world import ByteStream
 
+HINT = (
+    "PX4_SYS_AUTOSTART=60002 PX4_SIMULATOR=none PX4_PARAM_SIM_GZ_EN=0 "
+    "build/px4_sitl_default/bin/px4"
+)
+"""The example of a command that starts PX4."""
 MAX_BYTES = 1 << 20
 """The greatest number of bytes that are received while the simulation waits for one answer."""
 WAIT_PERIOD = 0.1
@@ -83,12 +89,15 @@ class LockStep:
             ClientLost: PX4 does not connect or does not answer within the limit.
         """
         deadline = wall_time.monotonic() + self._limit
-        clock, has_answer = 0, False
+        clock, has_answer, is_reported = 0, False, False
         while not has_answer:
             if wall_time.monotonic() > deadline:
                 raise ClientLost(self._describe_missing_start())
             if not self._stream.is_connected:
                 self._stream.receive(WAIT_PERIOD)
+                if not (is_reported or self._stream.is_connected):
+                    is_reported = True
+                    report(f"waiting for PX4 on {self._address}. Start it, for example: {HINT}")
                 continue
             next_time = wall_time.monotonic() + 1e-6 * period
             clock += period
@@ -118,6 +127,19 @@ class LockStep:
             raise ClientLost(f"PX4 has closed the connection to {self._address}.")
         self._send(messages)
         return self._wait_for(clock)
+
+    def describe(self) -> str:
+        """Return a sentence with the numbers of the exchange."""
+        state = self.state
+        counts = {
+            "late answers": state.n_stale,
+            "invalid answers": state.n_invalid,
+            "bytes of no message": state.n_skipped,
+        }
+        events = ", ".join(f"{n} {name}" for name, n in counts.items() if n)
+        return f"PX4 on {self._address}: {state.n_answers} answers" + (
+            f"; {events}" if events else ""
+        )
 
     def _wait_for(self, clock: int) -> ActuatorControls:
         deadline, n_skipped = wall_time.monotonic() + self._limit, self.state.n_skipped

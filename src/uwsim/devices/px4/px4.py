@@ -32,7 +32,7 @@ from ...base.record import Record
 from ...errors import BadSetting, UnknownName
 from ...schema import MAX_DISTANCE, element
 from ...vehicle import Autopilot
-from ...world import DeviceWorld
+from ...world import DeviceWorld, MovingBody
 from ..device import Device, DeviceSpec, DeviceVehicle
 from .board import Board, BoardNoise, Due
 from .lock_step import LockStep, LockStepState
@@ -63,8 +63,8 @@ class Px4Spec(DeviceSpec):
 
     name: str = "px4"
     """The name of the autopilot."""
-    relative_to: str
-    """The link on which the board is mounted."""
+    relative_to: str | None = None
+    """The link on which the board is mounted; without it the base."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
@@ -103,23 +103,36 @@ class Px4Spec(DeviceSpec):
 
         Raises:
             UnknownName: the vehicle has no such link or thruster.
-            BadSetting: the rate does not fit the step, or the outputs do not fit the vehicle.
+            BadSetting: the rate does not fit the step, the outputs do not fit the vehicle, or the
+                board has another axis than z down.
         """
         if vehicle.autopilot is None:
             raise BadSetting(f"<u:px4>: {vehicle.name} has no dynamics, so PX4 cannot drive it.")
         motors = Motors(self.motor, vehicle.thrusters)
         schedule = Schedule(self, world.timestep)
-        board = Board(vehicle.moving_mount(self), world.ned_origin, self._noise)
+        board = Board(self._mount(vehicle), world.ned_origin, self._noise)
         prefix = f"{vehicle.name}/{self.name}"
         state = Px4State(
             LockStepState(), world.stream(f"{prefix}/noise"), world.stream(f"{prefix}/start_noise")
         )
         lock_step = None
         if world.connections is not None:
-            address = f"tcpin:{self.host}:{self.port}"
-            stream = world.connections.open(address)
-            lock_step = LockStep(stream, address, self.limit, state.lock_step)
+            stream = world.connections.open(f"tcpin:{self.host}:{self.port}")
+            place = f"TCP {self.host}:{self.port}"
+            lock_step = LockStep(stream, place, self.limit, state.lock_step)
         return Px4(world, vehicle.autopilot, board, motors, schedule, lock_step, state)
+
+    def _mount(self, vehicle: DeviceVehicle) -> MovingBody:
+        """Return the frame of the board; raise BadSetting if its z axis does not point down."""
+        base = vehicle.compiled_vehicle.base_mount().name.removeprefix(f"{vehicle.name}/")
+        link = self.relative_to or base
+        body = vehicle.moving_mount(_BoardPart(link, self.position, self.orientation))
+        if body.world_from_body.rotation[2, 2] > 0.5:
+            raise BadSetting(
+                f"<u:px4>: the z axis of the board on {link} points up at the start; expected down "
+                "(FRD). <orientation> <r>M_PI</r> <p>0</p> <y>0</y> turns it."
+            )
+        return body
 
     @property
     def _noise(self) -> BoardNoise:
@@ -132,6 +145,15 @@ class Px4Spec(DeviceSpec):
             satellites=self.satellite_noise,
             odometry=self.odometry_noise,
         )
+
+
+@dataclass(frozen=True)
+class _BoardPart:
+    """The place of the board on a link."""
+
+    relative_to: str
+    position: tuple[float, float, float]
+    orientation: tuple[float, float, float]
 
 
 class Motors:
@@ -281,6 +303,10 @@ class Px4(Device):
         state.n_samples += 1
         state.next_step = self._world.step + self._schedule.steps
         self._apply(answer)
+
+    def describe(self) -> str:
+        """Return a sentence about the exchange."""
+        return "PX4: not connected" if self._lock_step is None else self._lock_step.describe()
 
     def _measure_at_start(self, clock: int) -> list[HilMessage]:
         due = self._schedule.due(clock // self._schedule.period)

@@ -6,16 +6,18 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ...devices.ardupilot import ArduPilotSpec
+from ...devices.px4 import Px4Spec
 from ...errors import BadSetting
 from ...scene.spec import SceneSpec
 from ...world import TIMESTEP
+from .px4_scene import remove_parts
 
 ADDRESS = "127.0.0.1"
 """The address of this computer at which ArduPilot is expected by default."""
 
 
 def connect_ardupilot(scene: SceneSpec, *, ends_on_restart: bool = False) -> SceneSpec:
-    """Return a scene with at least one ``<u:ardupilot>``.
+    """Return a scene with at least one ``<u:ardupilot>``, and without ``<u:px4>``.
 
     A scene without one has it in the first vehicle with dynamics.
 
@@ -26,7 +28,7 @@ def connect_ardupilot(scene: SceneSpec, *, ends_on_restart: bool = False) -> Sce
     Raises:
         BadSetting: no vehicle has dynamics, or two vehicles have one port.
     """
-    vehicles = list(scene.vehicles)
+    vehicles = [remove_parts(vehicle, Px4Spec) for vehicle in scene.vehicles]
     if not any(vehicle.parts_of(ArduPilotSpec) for vehicle in vehicles):
         indices = [i for i, vehicle in enumerate(vehicles) if vehicle.dynamics is not None]
         if not indices:

@@ -1,0 +1,18 @@
+"""The option ``--px4`` of ``uwsim run``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from .help_texts import CONNECTIONS, option
+
+Px4Option = Annotated[
+    bool,
+    option(
+        CONNECTIONS,
+        "--px4",
+        help="Let PX4 steer, in lock-step over its HIL messages at TCP port 4560: the vehicles "
+        "with <u:px4>, or else the first vehicle with dynamics. Start PX4 with "
+        "PX4_SIMULATOR=none.",
+    ),
+]
