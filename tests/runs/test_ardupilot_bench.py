@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.ardupilot_stub import Law, Stub, free_port
-from tests.support.pid_autopilot import PidAutopilot, square_path, hold
+from tests.support.pid_autopilot import PidAutopilot, hold, square_path
 from uwsim.api import read_result
 from uwsim.cli import main as uwsim
 
