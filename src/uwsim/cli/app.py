@@ -164,6 +164,15 @@ COMMANDS: dict[str, Command] = {
             "uwsim run my-scene.xml --program my_controller.py --for 1min --record dive.mcap",
         ),
     ),
+    "scenario": Command(
+        module="logs.scenario",
+        function="scenario",
+        summary="Make a benchmark from the log of a real mission.",
+        examples=(
+            "uwsim scenario dive.mcap --scene tank.xml --images /camera/image_raw --target box",
+            "uwsim scenario dive.csv --mapping dive.toml --scene tank.xml -o tank-scenario",
+        ),
+    ),
     "verify": Command(
         module="verify",
         function="verify",

@@ -26,10 +26,12 @@ from ..runs.program import load_program
 from ..runs.substituted_files import warn_of_substituted_files
 from ..world import TIMESTEP
 from .options.connections import ConnectionOptions, open_connections
+from .options.follow import FollowOptions
 from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .options.run_options import ProgramOptions, RecordOptions, SeedOption
 from .options.strict_options import StrictOptions
+from .options.virtual import CompositionOptions
 from .output.strict_report import (
     hold_garbage,
     make_strict_clock,
@@ -58,6 +60,8 @@ def run(
     connections: ConnectionOptions,
     strict_options: StrictOptions,
     live_options: LiveOptions,
+    follow: FollowOptions,
+    composition: CompositionOptions,
     seed: SeedOption = 0,
     output: RecordOptions,
     no_code: NoCodeOption = False,
@@ -79,6 +83,9 @@ def run(
 
     With --strict the scene runs in real time with hardware in the loop. A table shows how late
     steps, sent bytes and commands were; the status is 3 if anything was late or missing.
+
+    With --follow a vehicle follows the poses of a real one. The sensors of the scene observe from
+    there. --compose draws virtual objects into the images of the real camera.
     """
     from ..checks import model_warnings
     from ..physics.compile_scene import compile_scene
@@ -111,31 +118,29 @@ def run(
         errors,
         is_endless=(live_options.view or strict_options.is_strict or program_options.has_autopilot),
     )
+    follow.check(connections, errors)
+    composition.check(errors)
     errors.raise_errors()
     assert spec is not None
     announce_code(spec)
     warn_of_substituted_files(spec, folders)
+    spec, connections = follow.change_scene(spec), follow.choose_pace(connections)
     timestep = exchange_timestep(spec) if program_options.ardupilot else TIMESTEP
     model = compile_scene(
         spec, seed=seed, timestep=timestep, data_path=folders, compatibility=quirks
     )
-    with Simulation(model, udp_address=udp_address) as simulation:
+    with Simulation(model, udp_address=follow.find_address(udp_address)) as simulation:
         print_warnings(model_warnings(model))
         print_streams(simulation)
         raise_on_interrupt()
-        scene_topics = None
-        if connections.is_connected or output.record is not None:
-            from ..viewer.scene_topics import SceneTopics
-
-            scene_topics = SceneTopics(simulation, is_on_bus=connections.is_connected)
-        # the live view paces the run itself
-        pace_options = replace(connections, speed=0.0) if live_options.view else connections
-        strict_clock = make_strict_clock(simulation, pace_options, strict_options)
+        strict_clock = make_strict_clock(simulation, connections, strict_options)
+        scene_topics = make_scene_topics(simulation, connections, output)
         with (
-            open_image_process(simulation, pace_options),
-            open_connections(simulation, pace_options, strict_clock),
-            open_live_view(simulation, spec, run_settings, live_options, connections),
-            nullcontext() if strict_clock is None else hold_garbage(),
+            open_parts(
+                simulation, spec, run_settings, live_options, connections, strict_clock=strict_clock
+            ),
+            follow.open_report(simulation, as_json=output.as_json),
+            composition.open_composition(simulation, follow.find_vehicle(spec)),
         ):
             run_and_report(
                 simulation, spec, run_settings, output, scene_topics, (strict_clock, strict_options)
@@ -143,6 +148,39 @@ def run(
         warn_of_invalid_input(simulation)
         if strict_clock is not None:
             raise_if_late(strict_clock.report())
+
+
+def make_scene_topics(
+    simulation: Simulation, connections: ConnectionOptions, output: RecordOptions
+) -> SceneTopics | None:
+    """Return the publisher of the topics that describe the scene; None if nothing reads them."""
+    if not connections.is_connected and output.record is None:
+        return None
+    from ..viewer.scene_topics import SceneTopics
+
+    return SceneTopics(simulation, is_on_bus=connections.is_connected)
+
+
+@contextmanager
+def open_parts(
+    simulation: Simulation,
+    spec: SceneSpec,
+    run_settings: RunSettings,
+    live_options: LiveOptions,
+    connections: ConnectionOptions,
+    *,
+    strict_clock: StrictClock | None,
+) -> Iterator[None]:
+    """Open the process of images, the connections and the live view within the block."""
+    # the live view paces the run itself
+    pace_options = replace(connections, speed=0.0) if live_options.view else connections
+    with (
+        open_image_process(simulation, pace_options),
+        open_connections(simulation, pace_options, strict_clock),
+        open_live_view(simulation, spec, run_settings, live_options, connections),
+        nullcontext() if strict_clock is None else hold_garbage(),
+    ):
+        yield
 
 
 @contextmanager

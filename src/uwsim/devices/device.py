@@ -9,20 +9,15 @@ from __future__ import annotations
 
 import abc
 import math
-from collections.abc import Collection
 from dataclasses import dataclass
-from typing import ClassVar, Literal, Protocol
+from typing import ClassVar, Protocol
 
-from ..base.geometry import Array, Pose
 from ..base.record import NoState, Record
 from ..base.sampling import Sampler
 from ..schema import Spec
 from ..sensors.sensor import Carrier, MountedPart
 from ..vehicle import Vehicle
 from ..world import DeviceWorld
-
-MotionSource = Literal["base", "joints"]
-"""A part of a vehicle whose motion may be prescribed."""
 
 
 class DeviceVehicle(Vehicle, Carrier, Protocol):
@@ -33,23 +28,6 @@ class DeviceVehicle(Vehicle, Carrier, Protocol):
 
     def release(self, object_index: int) -> None:
         """Release the held object with an index."""
-
-    def start_prescribed_motion(self) -> None:
-        """Compute velocities from the poses that are set, not from forces."""
-
-    def set_configuration(
-        self,
-        world_from_base: Pose | None,
-        joints: Array | None,
-        starting_sources: Collection[MotionSource] = (),
-    ) -> None:
-        """Set the pose and the joint vector; a prescribed motion counts the change as movement.
-
-        Args:
-            world_from_base: the pose of the base in W; None: no change.
-            joints: the joint vector, (n,) [rad or m]; None: no change.
-            starting_sources: the quantities whose prescribed motion starts here, at rest.
-        """
 
     def wrench_sampler(
         self, spec: MountedPart, *, at_joint: bool = False, visual: bool = False

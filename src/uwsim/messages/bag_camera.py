@@ -21,6 +21,8 @@ from ..errors import AssetError, UnknownName
 from . import CameraInfo, Header, RegionOfInterest, Time
 
 IMAGE = "sensor_msgs/msg/Image"
+DEPTH_UNITS = {"32FC1": ("f4", 1.0), "16UC1": ("u2", 1e-3)}
+"""The number type of depth images, and the length of their unit [m], by encoding."""
 COMPRESSED_IMAGE = "sensor_msgs/msg/CompressedImage"
 CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 GREY_ENCODINGS = ("mono8", "8UC1")
@@ -55,6 +57,39 @@ class RecordedFrame:
     """The name of the image in error messages."""
     read: Callable[[], Any]
     """A function that returns the Image or CompressedImage, of the classes of rosbags."""
+    read_depth: Callable[[], Any] | None = None
+    """A function that returns the newest depth image; None: there is none."""
+
+    def decode_depth(self) -> npt.NDArray[np.float64] | None:
+        """Return the distance along the optical axis, (h, w) [m]; inf: unknown; None: no image.
+
+        Raises:
+            AssetError: the encoding is not supported, or the size does not match the data.
+        """
+        if self.read_depth is None:
+            return None
+        message = self.read_depth()
+        encoding = str(message.encoding)
+        if encoding not in DEPTH_UNITS:
+            raise AssetError(
+                f"The depth of {self.label} is encoded as {encoding[:40]!r}; expected "
+                f"{' or '.join(DEPTH_UNITS)}."
+            )
+        kind, unit = DEPTH_UNITS[encoding]
+        dtype = np.dtype((">" if message.is_bigendian else "<") + kind)
+        height, width, step = message.height, message.width, message.step
+        row_size = width * dtype.itemsize
+        if height < 1 or width < 1 or step < row_size or len(message.data) < height * step:
+            raise AssetError(
+                f"The depth of {self.label} has a header for {width}x{height} numbers of "
+                f"{dtype.itemsize} bytes in rows of {step}, and {len(message.data)} bytes."
+            )
+        rows = np.frombuffer(message.data, dtype=np.uint8)[: height * step].reshape(height, step)
+        numbers = np.ascontiguousarray(rows[:, :row_size]).view(dtype)
+        depth: npt.NDArray[np.float64] = numbers.astype(np.float64) * unit
+        with np.errstate(invalid="ignore"):
+            depth[~(depth > 0.0)] = np.inf  # 0 and NaN: no measurement
+        return depth
 
     def decode(self) -> DecodedImage:
         """Decode the image.
@@ -110,13 +145,16 @@ class Recording:
         path: a ``.bag``, ``.mcap`` or ``.db3`` file, or a rosbag2 folder.
         image_topic: the topic of the Image or CompressedImage messages.
         info_topic: the topic of the CameraInfo messages.
+        depth_topic: the topic of depth images; empty: none.
 
     Raises:
         AssetError: the bag cannot be read, a topic has another type, or there is nothing to replay.
         UnknownName: a topic is not in the bag.
     """
 
-    def __init__(self, path: Path, image_topic: str, info_topic: str) -> None:
+    def __init__(
+        self, path: Path, image_topic: str, info_topic: str, depth_topic: str = ""
+    ) -> None:
         from rosbags.highlevel import AnyReader
         from rosbags.typesys import Stores, get_typestore
 
@@ -133,6 +171,7 @@ class Recording:
             self._start = 0  # time of the first image [ns]
             self._images = self._connections(image_topic, (IMAGE, COMPRESSED_IMAGE))
             self._infos = self._connections(info_topic, (CAMERA_INFO,))
+            self._depths = self._connections(depth_topic, (IMAGE,)) if depth_topic else []
             self._first_info = self._read_first_info(info_topic)
             frames = self.frames()
             first_frame = next(frames, None)
@@ -157,18 +196,22 @@ class Recording:
     def frames(self) -> Iterator[RecordedFrame]:
         """Yield the images in the order in which they were recorded."""
         start: int | None = None
+        read_depth: Callable[[], Any] | None = None
         info, count = self._first_info, 0
-        for connection, time, data in self._messages([*self._images, *self._infos]):
+        connections = [*self._images, *self._infos, *self._depths]
+        for connection, time, data in self._messages(connections):
             if connection.msgtype == CAMERA_INFO:
                 info = self._decode(data, CAMERA_INFO)
+                continue
+            if connection in self._depths:
+                read_depth = partial(self._decode, data, connection.msgtype)
                 continue
             count += 1
             if start is None:
                 start = self._start = time
             label = f"Image {count} of {self._image_topic!r} in {self._name}"
-            yield RecordedFrame(
-                time - start, info, label, partial(self._decode, data, connection.msgtype)
-            )
+            read = partial(self._decode, data, connection.msgtype)
+            yield RecordedFrame(time - start, info, label, read, read_depth)
 
     def close(self) -> None:
         """Close the files."""

@@ -8,6 +8,7 @@ r"""bagFogUpdater: fog over recorded images, to test an algorithm on real footag
       <bag>dive.bag</bag> <imageTopic>camera</imageTopic> <infoTopic>camera_info</infoTopic>
       <imageDepth>2.5</imageDepth>
       <imagePub>/foggy/image</imagePub> <infoPub>/foggy/camera_info</infoPub>
+      <u:depthTopic>/depth/image</u:depthTopic>
       <u:truth> <u:file>corners.csv</u:file> <u:topic>truth/corners</u:topic> </u:truth>
     </bagFogUpdater>
 
@@ -21,6 +22,10 @@ Everything in an image is assumed to be at the distance ``imageDepth``. In fog o
 as in the renderer (docs/rendering.md); g is the scene's fog colour. Each image is published as
 ``rgb8`` or ``mono8`` together with the camera's CameraInfo; both are stamped with the time of
 publication. Not modelled: attenuation, and fog that was already in the recorded water.
+
+With ``<u:depthTopic>``, the newest depth image before each image gives the range of each pixel: its
+depth times the length of the pixel's ray at a depth of 1 m, by the camera's parameters. Where the
+depth is 0 or NaN, ``imageDepth`` holds.
 
 ``<u:truth>`` names a CSV file with the ground truth of each image. Its column ``time`` is the time
 since the first image of the recording [s]; the other columns are the numbers of the truth. The
@@ -36,10 +41,13 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ...base.geometry import Array
+from ...base.numerics.elementwise import exp
 from ...base.numerics.linear import dot
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
 from ...messages import CameraInfo, Float32MultiArray, Image, image, time_from_seconds
@@ -75,6 +83,9 @@ class BagFogUpdaterSpec(FogSweepSpec):
     """The topic on which images are published; None: the topic in the recording."""
     info_pub: str | None = element(default=None)
     """The topic on which camera parameters are published; None: the topic in the recording."""
+    depth_topic: str = element(namespaced=True, default="")
+    """The topic of depth images in the recording (sensor_msgs/Image, 32FC1 in m or 16UC1 in mm), by
+    whose ranges the fog is added; empty: ``imageDepth`` holds for every pixel."""
     truth: RecordedTruthSpec | None = element(namespaced=True, default=None)
     """The ground truth of the images."""
     path: str = field(default="", compare=False, metadata={"path": True})
@@ -106,9 +117,13 @@ class BagFogUpdaterSpec(FogSweepSpec):
             AssetError: the recording cannot be read, or a topic has the wrong type.
             UnknownName: a topic is not in the recording.
         """
-        recording = Recording(path, self.image_topic, self.info_topic)
+        recording = self.open(path)
         recording.close()
         return recording.gap * 1e-9, recording.length * 1e-9
+
+    def open(self, path: Path) -> Recording:
+        """Open the recording; raises AssetError or UnknownName as `times` does."""
+        return Recording(path, self.image_topic, self.info_topic, self.depth_topic)
 
     def bind(self, stage: Stage) -> BagFogUpdater:
         """Open the recording.
@@ -194,7 +209,7 @@ class BagFogUpdater(SceneUpdater):
 
     def _open(self) -> Recording:
         if self._recording is None:
-            self._recording = Recording(self._path, self._spec.image_topic, self._spec.info_topic)
+            self._recording = self._spec.open(self._path)
         return self._recording
 
     def _repeat_first(self) -> Iterator[tuple[int, RecordedFrame]]:
@@ -247,14 +262,26 @@ class BagFogUpdater(SceneUpdater):
         info = camera_info(frame.info, stamp=stamp, frame_id=decoded_image.frame_id)
         self._stage.bus.publisher(self._info_topic, CameraInfo)(info)
         if has_subscribers:
-            pixels = self._add_fog(decoded_image)
+            pixels = self._add_fog(decoded_image, frame)
             self._n_frames += 1
             self._digest.update(pixels.tobytes())
             self._stage.bus.publisher(self._image_topic, Image)(
                 image(pixels, time=time, frame_id=decoded_image.frame_id)
             )
 
-    def _add_fog(self, decoded_image: DecodedImage) -> npt.NDArray[np.uint8]:
+    def _add_fog(self, decoded_image: DecodedImage, frame: RecordedFrame) -> npt.NDArray[np.uint8]:
+        depth = frame.decode_depth()
+        if depth is not None and not self._has_original_fog:
+            if depth.shape != decoded_image.pixels.shape[:2]:
+                raise AssetError(
+                    f"{frame.label} has {decoded_image.pixels.shape[1]}x"
+                    f"{decoded_image.pixels.shape[0]} pixels, its depth image {depth.shape[1]}x"
+                    f"{depth.shape[0]}."
+                )
+            ranges = find_ranges(depth, frame.info, self._spec.image_depth)
+            return add_fog_by_range(
+                decoded_image.pixels, ranges, self._density, self._stage.fog_colour
+            )
         thickness = (self._density * self._spec.image_depth) ** 2
         if not self._has_original_fog:
             return add_fog(decoded_image.pixels, math.exp(-thickness), self._stage.fog_colour)
@@ -285,3 +312,38 @@ def add_fog(
     table = np.rint(contrast * levels + (1.0 - contrast) * fog_levels)  # (256, 3) or (256, 1)
     foggy_pixels = cv2.LUT(np.ascontiguousarray(pixels), table.astype(np.uint8)[None])
     return np.asarray(foggy_pixels, dtype=np.uint8).reshape(pixels.shape)
+
+
+def find_ranges(depth: Array, info: Any, unknown_range: float) -> Array:
+    """Return the ranges along the rays of the pixels of a depth image, (h, w) [m].
+
+    Args:
+        depth: the distances along the optical axis, (h, w) [m]; inf: unknown.
+        info: the CameraInfo, of a class of rosbags.
+        unknown_range: the range of pixels without a depth [m].
+    """
+    fx, _, cx, _, fy, cy = np.asarray(getattr(info, "k", getattr(info, "K", None)), float)[:6]
+    is_calibrated = fx > 0.0 and fy > 0.0
+    columns, rows = np.arange(depth.shape[1]), np.arange(depth.shape[0])[:, None]
+    x, y = (columns - cx) / (fx if is_calibrated else 1.0), (rows - cy) / (fy or 1.0)
+    lengths = np.sqrt(1.0 + x * x + y * y) if is_calibrated else np.ones(depth.shape)
+    ranges: Array = np.where(np.isfinite(depth), depth * lengths, unknown_range)
+    return ranges
+
+
+def add_fog_by_range(
+    pixels: npt.NDArray[np.uint8],
+    ranges: Array,
+    density: float,
+    colour: tuple[float, float, float],
+) -> npt.NDArray[np.uint8]:
+    """Return pixels in fog of a density [1/m], for surfaces at ranges (h, w) [m], as `add_fog`."""
+    optical_depth = np.minimum(density * ranges, 1e3)
+    contrast = exp(-(optical_depth * optical_depth))
+    fog_levels = 255.0 * np.array(colour)
+    if pixels.ndim == 2:
+        foggy_pixels = contrast * pixels + (1.0 - contrast) * dot(fog_levels, GREY)
+    else:
+        foggy_pixels = contrast[..., None] * pixels + (1.0 - contrast[..., None]) * fog_levels
+    levels: npt.NDArray[np.uint8] = np.rint(foggy_pixels).clip(0.0, 255.0).astype(np.uint8)
+    return levels

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -213,3 +215,13 @@ class CompositionOptions:
         if self.frames is not None:
             self.frames.mkdir(parents=True, exist_ok=True)
         return ComposedCamera(simulation, composition, vehicle, self.frames)
+
+    @contextmanager
+    def open_composition(self, simulation: Simulation, vehicle: str) -> Iterator[None]:
+        """Compose images within the block, and print their number at its end."""
+        camera = self.open_camera(simulation, vehicle)
+        try:
+            yield
+        finally:
+            if camera is not None:
+                print(f"{camera.n_images} images composed, {camera.n_refused} left out")

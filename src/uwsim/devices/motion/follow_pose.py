@@ -38,7 +38,7 @@ from ...schema import element
 from ...world import DeviceWorld
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .pose_filter import FilterSettings, MeasuredPose, PoseFilter, PoseFilterState, format_report
-from .scripted_motion import move_vehicle
+from .prescribed_vehicle import PrescribedVehicle, move_vehicle
 
 Axes = Literal["localized", "enu", "ned"]
 """The axes of poses: ``localized`` those of the scene file and of the model's base; ``enu`` those
@@ -88,6 +88,7 @@ class FollowPoseSpec(DeviceSpec):
                 + ("a topic and a port" if self.topic else "neither a topic nor a port")
                 + "; expected <u:topic> or <u:mavlinkPort>."
             )
+        assert isinstance(vehicle, PrescribedVehicle)
         follower = PoseFollower(self, vehicle, world)
         if self.topic and self.type == "odometry":
             world.bus.subscribe(
@@ -119,7 +120,9 @@ class PoseFollower(Device):
         world: the view of the scene.
     """
 
-    def __init__(self, spec: FollowPoseSpec, vehicle: DeviceVehicle, world: DeviceWorld) -> None:
+    def __init__(
+        self, spec: FollowPoseSpec, vehicle: PrescribedVehicle, world: DeviceWorld
+    ) -> None:
         self.spec = spec
         """The spec."""
         self._vehicle, self._world = vehicle, world

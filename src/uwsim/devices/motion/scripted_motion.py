@@ -34,8 +34,9 @@ from ...base.record import Record
 from ...errors import AssetError, BadSetting
 from ...schema import element
 from ...world import DeviceWorld
-from ..device import Device, DeviceSpec, DeviceVehicle, MotionSource
+from ..device import Device, DeviceSpec, DeviceVehicle
 from .pose_track import GapPolicy, PoseTrack
+from .prescribed_vehicle import PrescribedVehicle, move_vehicle
 
 COLUMNS = ("time", "x", "y", "z", "qw", "qx", "qy", "qz")
 """The columns of a table of poses, in their order."""
@@ -62,6 +63,7 @@ class ScriptedMotionSpec(DeviceSpec):
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ScriptedMotion:
         """Create the motion; `ScriptedMotion.follow` sets its poses."""
+        assert isinstance(vehicle, PrescribedVehicle)
         return ScriptedMotion(self, vehicle, world.world_from_localized)
 
     def read(self, path: Path) -> PoseTrack:
@@ -91,7 +93,7 @@ class ScriptedMotion(Device):
     """
 
     def __init__(
-        self, spec: ScriptedMotionSpec, vehicle: DeviceVehicle, world_from_localized: Pose
+        self, spec: ScriptedMotionSpec, vehicle: PrescribedVehicle, world_from_localized: Pose
     ) -> None:
         self.spec = spec
         """The spec."""
@@ -114,13 +116,6 @@ class ScriptedMotion(Device):
             self.vehicle, self._world_from_localized @ pose, is_start=not self.state.has_begun
         )
         self.state.has_begun = True
-
-
-def move_vehicle(vehicle: DeviceVehicle, world_from_base: Pose, *, is_start: bool) -> None:
-    """Move a vehicle to a pose in W; at the start of a motion, it is at rest there."""
-    vehicle.start_prescribed_motion()
-    starting_sources: tuple[MotionSource, ...] = ("base",) if is_start else ()
-    vehicle.set_configuration(world_from_base, None, starting_sources)
 
 
 def read_poses(path: Path, *, name: str) -> tuple[Array, Array, Array]:

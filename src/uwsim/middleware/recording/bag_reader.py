@@ -80,6 +80,8 @@ class BagReader:
         """
         names = self.topics if topics is None else topics
         connections = [c for c in self._reader.connections if f"/{c.topic.strip('/')}" in names]
+        if not connections:
+            return  # rosbags would read all
         records = self._reader.messages(connections)
         while True:
             try:
