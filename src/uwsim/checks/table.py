@@ -22,6 +22,7 @@ from .model import (
 from .rule import Need, Rule
 from .scene import (
     angles,
+    ardupilot_wiring,
     comms,
     forces,
     models,
@@ -73,6 +74,7 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(comms.communication, Need.SPEC),
     Rule(names.excess_lamps, Need.SPEC),
     Rule(names.passable_objects, Need.SPEC),
+    Rule(ardupilot_wiring.check_wiring, Need.SPEC, in_runs=True),
     Rule(names.passable_vehicles, Need.SPEC),
     Rule(names.loose_scenery, Need.SPEC),
     Rule(directions.directions, Need.SPEC),
