@@ -14,7 +14,7 @@ no.    message                direction  content
 
 Vectors of the body are in FRD axes (x forward, y to starboard, z down), those of the Earth in NED.
 Layouts and units: MAVLink, ``common.xml``. The meaning of ``fields_updated`` and of the lock-step
-flag: PX4, module ``simulator_mavlink`` (v1.16).
+flag: PX4, module ``simulator_mavlink``.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 PX4 connects, and sends HEARTBEAT. Its start script needs a running clock. So HIL_SENSOR is sent at
 the pace of real time until the first HIL_ACTUATOR_CONTROLS arrives; meanwhile the simulation waits.
 From then on each HIL_SENSOR waits for the HIL_ACTUATOR_CONTROLS with the same time. Source: PX4,
-module ``simulator_mavlink`` (v1.16), and its user guide, "Simulation", "Lockstep Simulation".
+module ``simulator_mavlink``, and its user guide, "Simulation", "Lockstep Simulation".
 """
 
 from __future__ import annotations
