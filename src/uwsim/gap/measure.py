@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -90,6 +91,7 @@ def measure_gap(
     vehicle: str | None = None,
     settings: GapSettings | None = None,
     data_path: Sequence[Path] = (),
+    compatibility: frozenset[str] = frozenset(),
     progress: Progress | None = None,
 ) -> Gap:
     """Simulate the commands of a log from its states, window by window, and compare.
@@ -100,13 +102,17 @@ def measure_gap(
         vehicle: the name of the vehicle in the scene; None: the only one with dynamics.
         settings: the settings; None: the defaults.
         data_path: the folders in which files are searched.
+        compatibility: the names of the compatibility quirks that are on.
         progress: shows the progress.
 
     Raises:
         UwsimError: the log lacks a motion or commands, or does not fit the vehicle.
     """
     settings = settings or GapSettings()
-    return _Measurement(log, scene, vehicle, settings, tuple(data_path), progress).run()
+    compile_variant = partial(
+        compile_scene, seed=settings.seed, data_path=tuple(data_path), compatibility=compatibility
+    )
+    return _Measurement(log, scene, vehicle, settings, compile_variant, progress).run()
 
 
 class _Measurement:
@@ -118,10 +124,10 @@ class _Measurement:
         scene: SceneSpec,
         vehicle: str | None,
         settings: GapSettings,
-        data_path: tuple[Path, ...],
+        compile_variant: Callable[[SceneSpec], SceneModel],
         progress: Progress | None,
     ) -> None:
-        self._log, self._settings, self._data_path = log, settings, data_path
+        self._log, self._settings, self._compile = log, settings, compile_variant
         self._progress: Progress = progress or (lambda title, total: nullcontext(lambda: None))
         self._remarks = list(log.remarks)
         self._motion = LogMotion(_check_motion(log))
@@ -165,9 +171,6 @@ class _Measurement:
             points_down=_points_down(self._model),
             remarks=tuple(self._remarks),
         )
-
-    def _compile(self, scene: SceneSpec) -> SceneModel:
-        return compile_scene(scene, seed=self._settings.seed, data_path=self._data_path)
 
     def _open(self, model: SceneModel) -> _OpenRun:
         return _OpenRun(model, self._log, self._index, self._motion)

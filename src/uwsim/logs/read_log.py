@@ -42,6 +42,14 @@ def read_log(
         from .recording_log import read_recording_log
 
         return read_recording_log(file, log_mapping, name)
+    if suffix == ".bin":
+        from .dataflash_log import read_dataflash_log
+
+        return read_dataflash_log(file, log_mapping, name)
+    if suffix == ".tlog":
+        from .telemetry_log import read_telemetry_log
+
+        return read_telemetry_log(file, log_mapping, name)
     raise BadSetting(
         f"{file}: {suffix or 'no suffix'} is not a format of logs.{choices(suffix, SUFFIXES)}"
     )

@@ -128,6 +128,7 @@ def gap(
     from ...logs import read_log
     from ...physics.compile_scene import compile_scene
     from ...results.directory import check_output
+    from ...runs.planning.option_values import compatibility_of
 
     folders, errors = tuple(data_path or ()), ErrorCollector()
     settings, spec, vehicle_log = GapSettings(), None, None
@@ -148,18 +149,21 @@ def gap(
         )
     with errors.collect():
         spec = load_scene(scene, folders, scene_settings(changes), errors)
+    quirks = compatibility_of(changes.compat or [], errors)
     with errors.collect():
         vehicle_log = read_log(log, mapping=options.mapping, vehicle=options.vehicle)
     errors.raise_errors()
     assert spec is not None
     assert vehicle_log is not None
-    print_warnings(model_warnings(compile_scene(spec, seed=settings.seed, data_path=folders)))
+    model = compile_scene(spec, seed=settings.seed, data_path=folders, compatibility=quirks)
+    print_warnings(model_warnings(model))
     measured_gap = measure_gap(
         vehicle_log,
         spec,
         vehicle=options.vehicle,
         settings=settings,
         data_path=folders,
+        compatibility=quirks,
         progress=lambda title, total: progress(title, total, unit="runs"),
     )
     write_gap(measured_gap, output.out, overwrite=output.overwrite)
