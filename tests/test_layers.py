@@ -83,7 +83,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "calibration": GROUND | {"results", "analysis", "statistics", "calibration"},
     "logs": BASE | {"middleware", "logs"},
-    "gap": TASKS | ENGINES | {"analysis", "middleware", "logs", "gap"},
+    "reality_gap": TASKS | ENGINES | {"analysis", "middleware", "logs", "reality_gap"},
     "identification": TASKS | ENGINES | {"analysis", "logs", "identification"},
     "virtual_sensors": ENGINES | {"simulation", "logs", "virtual_sensors"},
     "scenarios": (
@@ -106,7 +106,7 @@ MAY_IMPORT: dict[str, set[str]] = {
             "verify",
             "middleware",
             "logs",
-            "gap",
+            "reality_gap",
             "identification",
             "virtual_sensors",
             "manoeuvres",

@@ -19,7 +19,7 @@ from .version import __version__
 
 if TYPE_CHECKING:
     from . import messages
-    from .api import bench, check, compare, load, read_result
+    from .api import bench, check, compare, gap, load, read_result
     from .base.geometry import Pose
     from .bus import Algorithm, Node
     from .errors import UwsimError
@@ -46,6 +46,7 @@ __all__ = [
     "bench",
     "check",
     "compare",
+    "gap",
     "load",
     "messages",
     "read_result",
@@ -66,6 +67,7 @@ _MODULES = {
     "bench": "api",
     "check": "api",
     "compare": "api",
+    "gap": "api",
     "load": "api",
     "read_result": "api",
 }

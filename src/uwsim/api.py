@@ -1,4 +1,4 @@
-"""The functions of the Python interface: `load`, `bench`, `check`, `compare`, `read_result`.
+"""The functions of the Python interface: `load`, `bench`, `check`, `compare`, `gap`, `read_result`.
 
 Files are found as by the command line: a path, a name in a search folder, or a bundled name. All
 functions take `str` or `Path`. They raise an `UwsimError` of one or more lines, which states the
@@ -22,6 +22,8 @@ from .world import TIMESTEP
 if TYPE_CHECKING:
     from .analysis.comparison.model import Comparison
     from .bus import Algorithm
+    from .logs import VehicleLog
+    from .reality_gap import Gap
     from .results.result import Result
     from .runs.planning.plan_request import PlanRequest
     from .scene.spec import SceneSpec
@@ -330,3 +332,57 @@ def check(
             resolve_bundled(Path(path)), data_path=folders, arguments=argument_texts
         )
     )
+
+
+def gap(
+    log: str | Path | VehicleLog,
+    scene: str | Path | SceneSpec,
+    *,
+    mapping: str | Path | None = None,
+    vehicle: str | None = None,
+    windows: int = 60,
+    horizons: Sequence[float] = (1.0, 5.0, 20.0),
+    seed: int = 0,
+    attribution: bool = True,
+    data_path: Sequence[str | Path] = (),
+    out: str | Path | None = None,
+) -> Gap:
+    """Measure the error of the simulation of a log, as ``uwsim gap`` does.
+
+    Args:
+        log: a log, or its file: CSV, MCAP, bag, ``.bin`` or ``.tlog``.
+        scene: a scene file, a bundled name, or a spec, with the vehicle of the log.
+        mapping: the mapping file of the log; None: the defaults of its format.
+        vehicle: the name of the vehicle; None: the only one.
+        windows: the greatest number of windows.
+        horizons: the times after the beginning of a window at which the error is taken [s].
+        seed: the seed of the scene's variations and of the intervals' resamples.
+        attribution: True to search for the coefficient that explains the error.
+        data_path: more folders in which files are searched.
+        out: the directory of the report, which is empty or does not exist; None: no files.
+
+    Raises:
+        UwsimError: a file is invalid, or the log does not fit the scene.
+    """
+    from .assets.bundled import scene_file
+    from .logs import VehicleLog, read_log
+    from .reality_gap import GapSettings, measure_gap
+    from .reality_gap.report import write_gap
+    from .scene.reader import read_scene
+    from .simulation.access.arguments import check_seed
+
+    folders = _folders_of(data_path)
+    settings = GapSettings(
+        n_windows=windows,
+        horizons=tuple(float(horizon) for horizon in horizons),
+        seed=check_seed(seed, "gap"),
+        has_attribution=attribution,
+    )
+    if not isinstance(log, VehicleLog):
+        log = read_log(log, mapping=mapping, vehicle=vehicle)
+    if isinstance(scene, str | Path):
+        scene = read_scene(scene_file(str(scene), folders), data_path=folders)
+    measured_gap = measure_gap(log, scene, vehicle=vehicle, settings=settings, data_path=folders)
+    if out is not None:
+        write_gap(measured_gap, Path(out))
+    return measured_gap

@@ -42,7 +42,7 @@ def message(name: str, *values: object) -> bytes:
     )
 
 
-def dive(*, with_parameters: bool = True) -> bytes:
+def make_dataflash(*, with_parameters: bool = True) -> bytes:
     """Return a log of 4 s: a turn to starboard at 0.3 rad/s, 0.5 m/s north, 10 m deep."""
     parts = [format_message(name) for name in FORMATS]
     parts[0] = (
@@ -76,7 +76,7 @@ def dive(*, with_parameters: bool = True) -> bytes:
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     file = tmp_path / "dive.bin"
-    file.write_bytes(dive())
+    file.write_bytes(make_dataflash())
     return file
 
 
@@ -104,7 +104,7 @@ def test_a_dataflash_log_has_motion_commands_and_sensors(path: Path) -> None:
 
 def test_without_parameters_the_first_eight_outputs_are_motors(tmp_path: Path) -> None:
     file = tmp_path / "dive.bin"
-    file.write_bytes(dive(with_parameters=False))
+    file.write_bytes(make_dataflash(with_parameters=False))
     log = read_log(file)
     [commands] = log.commands
     assert commands.names == tuple(f"motor{number}" for number in range(1, 9))
@@ -128,12 +128,12 @@ def test_a_mapping_names_the_outputs_and_their_signs(path: Path) -> None:
 def test_our_reader_reads_what_the_library_of_the_autopilot_reads(path: Path) -> None:
     reader_module = pytest.importorskip("pymavlink.DFReader", reason="the extra mavlink")
     reader = reader_module.DFReader_binary(str(path))
-    theirs = []
+    their_records = []
     while (record := reader.recv_match(type=["XKF1", "RCOU", "PARM"])) is not None:
-        theirs.append((record.get_type(), record.to_dict()))
-    ours = list(read_messages(path, ["XKF1", "RCOU", "PARM"], []))
-    assert [name for name, _ in ours] == [name for name, _ in theirs]
-    for (_, fields), (_, other) in zip(ours, theirs, strict=True):
+        their_records.append((record.get_type(), record.to_dict()))
+    our_records = list(read_messages(path, ["XKF1", "RCOU", "PARM"], []))
+    assert [name for name, _ in our_records] == [name for name, _ in their_records]
+    for (_, fields), (_, other) in zip(our_records, their_records, strict=True):
         for column, value in fields.items():
             expected = other[column]
             if not isinstance(expected, str):
@@ -142,13 +142,13 @@ def test_our_reader_reads_what_the_library_of_the_autopilot_reads(path: Path) ->
 
 
 def test_a_log_that_ends_within_a_message_is_read(path: Path) -> None:
-    path.write_bytes(dive()[:-7])
+    path.write_bytes(make_dataflash()[:-7])
     log = read_log(path)
     assert "the log ends within a message." in log.remarks
 
 
 def test_bytes_of_no_message_are_skipped_and_reported(path: Path) -> None:
-    data = dive()
+    data = make_dataflash()
     middle = data.rindex(b"\xa3\x95\x41")
     path.write_bytes(data[:middle] + b"garbage" + data[middle:])
     log = read_log(path)
@@ -165,7 +165,7 @@ def test_a_file_that_is_no_log_is_an_error(data: bytes, path: Path) -> None:
 @pytest.mark.parametrize("seed", range(20))
 def test_damaged_logs_raise_errors_of_uwsim_only(seed: int, path: Path) -> None:
     rng = np.random.default_rng(seed)
-    data = bytearray(dive())
+    data = bytearray(make_dataflash())
     for place in rng.integers(0, len(data), 30):
         data[place] = int(rng.integers(0, 256))
     path.write_bytes(bytes(data))
@@ -173,7 +173,7 @@ def test_damaged_logs_raise_errors_of_uwsim_only(seed: int, path: Path) -> None:
         read_log(path)
 
 
-def telemetry(*, overflow: bool = False) -> bytes:
+def make_telemetry(*, overflow: bool = False) -> bytes:
     mavlink = pytest.importorskip(
         "pymavlink.dialects.v20.ardupilotmega", reason="the extra mavlink"
     )
@@ -206,7 +206,7 @@ def telemetry(*, overflow: bool = False) -> bytes:
 @pytest.mark.parametrize("overflow", [False, True])
 def test_a_telemetry_log_has_motion_commands_and_sensors(overflow: bool, tmp_path: Path) -> None:
     path = tmp_path / "dive.tlog"
-    path.write_bytes(telemetry(overflow=overflow))
+    path.write_bytes(make_telemetry(overflow=overflow))
     log = read_log(path)
     assert log.duration == pytest.approx(4.0, abs=1e-3)
     assert log.motion is not None
@@ -220,7 +220,7 @@ def test_a_telemetry_log_has_motion_commands_and_sensors(overflow: bool, tmp_pat
 
 
 def test_damaged_packets_are_skipped(tmp_path: Path) -> None:
-    data = bytearray(telemetry())
+    data = bytearray(make_telemetry())
     data[len(data) // 2] ^= 0xFF
     path = tmp_path / "dive.tlog"
     path.write_bytes(bytes(data) + b"\0" * 40)

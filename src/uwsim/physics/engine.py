@@ -257,22 +257,25 @@ class Engine:
         twist[:3] = rotate_back(self.poses.vehicle(index).rotation, twist[:3])
         return twist
 
-    def place_vehicle(self, index: int, world_from_base: Pose) -> None:
-        """Set the pose of a vehicle, at rest."""
+    def place_vehicle(self, index: int, world_from_base: Pose, twist: Array | None = None) -> None:
+        """Set the pose of a vehicle, with its actuators at rest.
+
+        Args:
+            index: the index of the vehicle.
+            world_from_base: the pose of its base in W.
+            twist: the twist of the base over ground, in base axes, (6,) [m/s, rad/s], of a vehicle
+                with dynamics; None: at rest.
+        """
         start, dof = self._base_addresses[index], self._base_dofs[index]
         self._data.qpos[start : start + 3] = world_from_base.position
         self._data.qpos[start + 3 : start + 7] = quaternion_from_rotation(world_from_base.rotation)
         if index in self.actuation:
             self._data.qvel[dof : dof + 6] = 0.0
+            if twist is not None:
+                self._data.qvel[dof : dof + 3] = rotate(world_from_base.rotation, twist[:3])
+                self._data.qvel[dof + 3 : dof + 6] = twist[3:]
             self.actuation[index].hold(world_from_base)
             self.contacts.invalidate(are_current=False)
-        self.poses.mark_stale()
-
-    def set_vehicle_velocity(self, index: int, twist: Array) -> None:
-        """Set the twist of a vehicle's base over ground, in base axes, (6,) [m/s, rad/s]."""
-        dof = self._base_dofs[index]
-        self._data.qvel[dof : dof + 3] = rotate(self.poses.vehicle(index).rotation, twist[:3])
-        self._data.qvel[dof + 3 : dof + 6] = twist[3:]
         self.poses.mark_stale()
 
     def drift(self, drift: DriftFunction, time: float) -> None:

@@ -121,12 +121,12 @@ def gap(
     if scene is None:
         raise BadSetting("Missing SCENE; expected a scene with the vehicle of the log.")
     from ...checks import model_warnings
-    from ...gap import measure_gap
-    from ...gap.report import PAGE, WRITTEN_FILES, WRITTEN_FOLDERS, print_gap, write_gap
-    from ...gap.report.document import json_text
-    from ...gap.settings import GapSettings
     from ...logs import read_log
     from ...physics.compile_scene import compile_scene
+    from ...reality_gap import measure_gap
+    from ...reality_gap.report import PAGE, WRITTEN_FILES, WRITTEN_FOLDERS, print_gap, write_gap
+    from ...reality_gap.report.document import json_text
+    from ...reality_gap.settings import GapSettings
     from ...results.directory import check_output
     from ...runs.planning.option_values import compatibility_of
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from .attribution import Attribution, Cause
-from .errors import AXES, HorizonError
-from .measure import Gap, choose_main_horizon
+from .errors import AXES, HorizonError, choose_main_horizon
 
 MAX_SHARE = 0.01
 """The error of the position over the distance travelled below which the simulation follows."""
@@ -26,21 +26,29 @@ VERBS = {
 }
 
 
-def state_verdict(gap: Gap) -> str:
-    """Return the verdict: the dominating error, and the coefficient that it points to."""
-    error = choose_main_horizon(gap.horizons)
+def state_verdict(
+    horizons: Sequence[HorizonError], radius: float, attribution: Attribution | None
+) -> str:
+    """Return the verdict: the dominating error, and the coefficient that it points to.
+
+    Args:
+        horizons: the errors at the horizons.
+        radius: the radius of gyration, by which angles count as displacements [m].
+        attribution: the attribution to coefficients; None: not searched.
+    """
+    error = choose_main_horizon(horizons)
     if is_followed(error):
         share = "" if error.share is None else f", {100.0 * error.share:.2g} % of the distance"
         return (
             f"The simulation follows the log: {error.distance.value:.2g} m after "
             f"{error.horizon:g} s{share}."
         )
-    text = describe_error(error, gap.radius)
-    if gap.attribution is None:
+    text = describe_error(error, radius)
+    if attribution is None:
         return f"{text}."
-    if not gap.attribution.causes:
+    if not attribution.causes:
         return f"{text}; no coefficient of the vehicle explains it."
-    return f"{text}; {describe_cause(gap.attribution, gap.attribution.causes[0])}."
+    return f"{text}; {describe_cause(attribution, attribution.causes[0])}."
 
 
 def is_followed(error: HorizonError) -> bool:

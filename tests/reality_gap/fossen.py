@@ -41,7 +41,7 @@ POWERS = {1: 8.9, 3: 176.0, 5: -404.1, 7: 389.9, 9: -140.3}
 class Rov:
     """The coefficients of the vehicle, with the true ones as defaults."""
 
-    added: np.ndarray = field(
+    added_mass: np.ndarray = field(
         default_factory=lambda: np.array([6.36, 7.12, 18.68, 0.189, 0.135, 0.222])
     )
     linear: np.ndarray = field(default_factory=lambda: np.array([13.7, 0, 33, 0, 0.8, 0]))
@@ -54,7 +54,7 @@ class Rov:
         """Return the derivative of position, quaternion wxyz, twist and rotors, (21,)."""
         quaternion, nu, rotors = state[3:7], state[7:13], state[13:]
         rotation = rotation_of(quaternion / np.linalg.norm(quaternion))
-        inertia = np.array([MASS] * 3 + list(INERTIA)) + self.added
+        inertia = np.array([MASS] * 3 + list(INERTIA)) + self.added_mass
         v, w = nu[:3], nu[3:]
         momentum = inertia * nu
         coriolis = np.concatenate(
@@ -109,10 +109,15 @@ def excite(time: float, state: np.ndarray) -> np.ndarray:
     surge, sway, yaw = 0.35 * squares[0], 0.3 * squares[1], 0.25 * squares[2]
     heave = 0.3 * sines[0] - 0.3 * (state[2] - 20.0)
     pitch, roll = 0.12 * sines[1], 0.12 * sines[2]
-    horizontal = [surge - sway - yaw, surge + sway + yaw, surge + sway - yaw, surge - sway + yaw]
-    vertical = [heave - pitch + roll, heave - pitch - roll, heave + pitch + roll]
-    vertical.append(heave + pitch - roll)
-    return np.clip(np.array([*horizontal, *vertical]), -0.85, 0.85)
+    horizontal_commands = [
+        surge - sway - yaw,
+        surge + sway + yaw,
+        surge + sway - yaw,
+        surge - sway + yaw,
+    ]
+    vertical_commands = [heave - pitch + roll, heave - pitch - roll, heave + pitch + roll]
+    vertical_commands.append(heave + pitch - roll)
+    return np.clip(np.array([*horizontal_commands, *vertical_commands]), -0.85, 0.85)
 
 
 def write_log(

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...analysis.plots import GREY, INK, MARKERS, PALETTE, save_pdf, save_plot, styled_figure
-from ..errors import AXES
-from ..measure import Gap, choose_main_horizon
+from ..errors import AXES, choose_main_horizon
+from ..gap import Gap
 from ..residuals import StepResiduals
 
 SIZE = (7.2, 2.9)

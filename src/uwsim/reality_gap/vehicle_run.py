@@ -60,9 +60,9 @@ class VehicleRun:
         pose = Pose.from_quaternion(
             self.motion.positions(time)[0], self.motion.quaternions(time)[0]
         )
-        engine, index = simulation.world.engine, self.vehicle.index
-        self.vehicle.place(self._world_from_localized @ pose)
-        engine.set_vehicle_velocity(index, self.motion.twists(time)[0])
+        simulation.world.engine.place_vehicle(
+            self.vehicle.index, self._world_from_localized @ pose, self.motion.twists(time)[0]
+        )
         self.commands.apply(self.vehicle, start)
         self.commands.set_actuators(simulation, self.vehicle, start)
 

@@ -16,7 +16,7 @@ the beginning of a window, through the origin: 0.82 is a vehicle that moves 18 %
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,6 +30,8 @@ Indices = npt.NDArray[np.int64]
 
 AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 """The names of the degrees of freedom."""
+MAIN_HORIZON = 5.0
+"""The horizon to which the one of the verdict is nearest [s]."""
 N_RESAMPLES = 2000
 """The number of resamples of an interval."""
 MIN_BLOCKS = 4
@@ -85,6 +87,11 @@ class HorizonError:
     def share(self) -> float | None:
         """The error of the position over the distance travelled; None below 1 cm."""
         return self.distance.value / self.path_length if self.path_length > 0.01 else None
+
+
+def choose_main_horizon(horizons: Sequence[HorizonError]) -> HorizonError:
+    """Return the errors at the horizon of the verdict and of the tracks."""
+    return min(horizons, key=lambda error: abs(error.horizon - MAIN_HORIZON))
 
 
 def summarize_horizon(

@@ -6,7 +6,7 @@ import math
 
 from ..attribution import Cause
 from ..errors import AxisError, Estimate, HorizonError
-from ..measure import Gap
+from ..gap import Gap
 from ..sensor_residuals import SensorResidual
 
 

@@ -3,16 +3,16 @@
 .. code-block:: python
 
     gap = measure_gap(read_log("dive.mcap"), read_scene("pool.xml"))
-    print(state_verdict(gap))
+    print(gap.verdict)
 """
 
 from __future__ import annotations
 
 from .attribution import Attribution, Cause
 from .errors import AxisError, Estimate, HorizonError
-from .measure import Gap, Progress, measure_gap
+from .gap import Gap
+from .measure import Progress, measure_gap
 from .settings import GapSettings
-from .verdict import state_verdict
 
 __all__ = [
     "Attribution",
@@ -24,5 +24,4 @@ __all__ = [
     "HorizonError",
     "Progress",
     "measure_gap",
-    "state_verdict",
 ]

@@ -9,17 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.gap.fossen import Rov, write_log
+from tests.reality_gap.fossen import Rov, write_log
 from uwsim.errors import BadSetting
-from uwsim.gap import Gap, GapSettings, measure_gap, state_verdict
-from uwsim.gap.report import WRITTEN_FILES, write_gap
 from uwsim.logs import read_log, write_csv_log
+from uwsim.reality_gap import Gap, GapSettings, measure_gap
+from uwsim.reality_gap.report import WRITTEN_FILES, write_gap
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 
 SCENE = Path(__file__).parent / "scene.xml"
 NOISE = np.array([0.005] * 3 + [0.001] * 4 + [0.01] * 3 + [0.002] * 3)
-"""Standard deviations of positions [m], quaternions, velocities [m/s] and rates [rad/s]."""
+"""The standard deviations of positions [m], quaternions, velocities [m/s] and rates [rad/s]."""
 
 
 def weaken_bow_port(rov: Rov) -> None:
@@ -31,7 +31,7 @@ def raise_yaw_drag(rov: Rov) -> None:
 
 
 def raise_surge_added_mass(rov: Rov) -> None:
-    rov.added[0] *= 1.4
+    rov.added_mass[0] *= 1.4
 
 
 @pytest.fixture(scope="module")
@@ -71,8 +71,8 @@ def test_the_verdict_names_the_coefficient_that_is_wrong(
     assert cause.high is not None
     assert cause.low - 0.03 < factor < cause.high + 0.03
     assert cause.factor == pytest.approx(factor, rel=0.05)
-    assert f"{name}: {cause.factor:.3g} times its value" in state_verdict(gap)
-    assert "dominates" in state_verdict(gap)
+    assert f"{name}: {cause.factor:.3g} times its value" in gap.verdict
+    assert "dominates" in gap.verdict
 
 
 def test_the_simulation_follows_an_independent_integrator_of_the_same_equations(
@@ -83,7 +83,7 @@ def test_the_simulation_follows_an_independent_integrator_of_the_same_equations(
     assert first.distance.value < 1e-4
     assert second.distance.value < 2e-3
     assert all(axis.rms.value < np.radians(0.5) for axis in second.axes[3:])
-    assert state_verdict(gap).startswith("The simulation follows the log")
+    assert gap.verdict.startswith("The simulation follows the log")
 
 
 def test_a_log_of_the_simulator_itself_has_no_gap(true_log: Path, scene: SceneSpec) -> None:
@@ -165,9 +165,9 @@ def test_a_log_without_commands_is_an_error(
 
 def test_no_window_spans_a_gap_of_the_log(true_log: Path, scene: SceneSpec, tmp_path: Path) -> None:
     lines = true_log.read_text().splitlines(keepends=True)
-    kept = [line for line in lines[1:] if not 8.0 < float(line.split(",")[0]) < 10.0]
+    kept_lines = [line for line in lines[1:] if not 8.0 < float(line.split(",")[0]) < 10.0]
     path = tmp_path / "log.csv"
-    path.write_text("".join([lines[0], *kept]))
+    path.write_text("".join([lines[0], *kept_lines]))
     gap = measure(path, scene, has_attribution=False)
     starts = gap.windows.starts
     assert not ((starts > 7.0 + 1e-6) & (starts < 10.0 - 1e-6)).any()
@@ -178,11 +178,11 @@ def test_a_log_survives_writing_and_reading(true_log: Path, tmp_path: Path) -> N
     log = read_log(true_log)
     path = tmp_path / "again.csv"
     path.write_text(write_csv_log(log))
-    again = read_log(path)
+    copied_log = read_log(path)
     assert log.motion is not None
-    assert again.motion is not None
-    assert (again.motion.twists == log.motion.twists).all()  # type: ignore[union-attr]
-    assert (again.commands[0].values == log.commands[0].values).all()
+    assert copied_log.motion is not None
+    assert (copied_log.motion.twists == log.motion.twists).all()  # type: ignore[union-attr]
+    assert (copied_log.commands[0].values == log.commands[0].values).all()
 
 
 @pytest.mark.parametrize("horizons", [(), (5.0, 1.0), (0.001,), (1.0, float("inf"))])

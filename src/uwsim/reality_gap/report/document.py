@@ -11,8 +11,7 @@ from typing import Any
 from ...version import __version__
 from ..attribution import Attribution
 from ..errors import AXES, Estimate, HorizonError
-from ..measure import Gap
-from ..verdict import state_verdict
+from ..gap import Gap
 
 FORMAT = 1
 """The version of the format."""
@@ -24,7 +23,7 @@ def json_text(gap: Gap) -> str:
     document = {
         "uwsim_gap": FORMAT,
         "version": __version__,
-        "verdict": state_verdict(gap),
+        "verdict": gap.verdict,
         "log": {
             "name": log.path.rsplit("/", 1)[-1],
             "format": log.format,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -20,7 +19,8 @@ from ..scene.spec import SceneSpec
 from ..simulation import Simulation
 from .attribution import Attribution, attribute_residual
 from .coefficients import Coefficient, list_coefficients, scale_coefficient
-from .errors import HorizonError, summarize_horizon
+from .errors import HorizonError, choose_main_horizon, summarize_horizon
+from .gap import Gap
 from .log_motion import LogMotion, relative_motion
 from .residuals import StepResiduals, choose_steps, measure_residuals
 from .sensor_residuals import SensorComparison, SensorResidual
@@ -33,55 +33,11 @@ N_CURVE = 80
 """The number of points of the curves of the error over the horizon."""
 MAX_TRACKS = 40
 """The greatest number of windows whose tracks are kept."""
-MAIN_HORIZON = 5.0
-"""The horizon to which the one of the verdict is nearest [s]."""
 AUTOPILOT_FORMATS = ("bin", "tlog")
 """The formats whose frames are north-east-down always."""
 
 Progress = Callable[[str, int], AbstractContextManager[Callable[[], None]]]
 """A function that yields a function to call after each run, for a title and a number of runs."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Gap:
-    """The gap between a log and a simulation."""
-
-    log: VehicleLog
-    """The log."""
-    scene: str
-    """The name of the scene."""
-    scene_digest: str
-    """The hash of the compiled scene."""
-    vehicle: str
-    """The name of the vehicle."""
-    settings: GapSettings
-    """The settings."""
-    command_kinds: tuple[str, ...]
-    """The kinds of commands that were applied."""
-    windows: Windows
-    """The windows."""
-    radius: float
-    """The radius of gyration of the vehicle, which weights angles [m]."""
-    horizons: tuple[HorizonError, ...]
-    """The errors at the horizons."""
-    curve_times: Array
-    """The times of the curves, (m,) [s]."""
-    curves: Array
-    """The root mean square of the error over the horizon, (m, 6) [m, rad]."""
-    window_errors: dict[float, Array]
-    """The errors of the windows of each horizon, (n, 6) [m, rad]."""
-    tracks: tuple[tuple[Array, Array], ...]
-    """The measured and the simulated positions of windows that do not overlap, (m, 3) [m]."""
-    residuals: StepResiduals | None
-    """The one-step residuals; None: the log is too short."""
-    sensors: tuple[SensorResidual, ...]
-    """The residuals of sensors."""
-    attribution: Attribution | None
-    """The attribution to coefficients; None: not requested."""
-    points_down: bool
-    """True if z of the scene's frame L points down."""
-    remarks: tuple[str, ...]
-    """The remarks about the log and the comparison."""
 
 
 def measure_gap(
@@ -325,11 +281,6 @@ class _OpenRun:
 
     def __exit__(self, *arguments: object) -> None:
         self._simulation.close()
-
-
-def choose_main_horizon(horizons: Sequence[HorizonError]) -> HorizonError:
-    """Return the errors at the horizon of the verdict and of the tracks."""
-    return min(horizons, key=lambda error: abs(error.horizon - MAIN_HORIZON))
 
 
 def make_run(simulation: Simulation, log: VehicleLog, index: int, motion: LogMotion) -> VehicleRun:

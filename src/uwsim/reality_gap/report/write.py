@@ -8,7 +8,7 @@ from pathlib import Path
 from ...base.files.staging import stage_directory
 from ...results.atomic_file import write_text
 from ...results.directory import clear_directory
-from ..measure import Gap
+from ..gap import Gap
 from .document import csv_text, json_text
 from .page import render
 from .plots import draw_plots

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from ...analysis.templates import data_url, template
 from ...version import __version__
-from ..measure import Gap, choose_main_horizon
-from ..verdict import state_verdict
+from ..errors import choose_main_horizon
+from ..gap import Gap
 from .tables import axis_rows, cause_row, format_number, horizon_row, input_rows, sensor_row
 
 CAPTIONS = {
@@ -49,7 +49,7 @@ def render(gap: Gap, plots: Mapping[str, Path]) -> str:
         title=gap.log.path.rsplit("/", 1)[-1],
         scene=gap.scene,
         vehicle=gap.vehicle,
-        verdict=state_verdict(gap),
+        verdict=gap.verdict,
         cards=cards,
         horizons=[horizon_row(item) for item in gap.horizons],
         tables=[(f"{item.horizon:g} s", axis_rows(item)) for item in gap.horizons],

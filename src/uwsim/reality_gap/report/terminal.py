@@ -5,8 +5,7 @@ from __future__ import annotations
 from rich.console import Console
 from rich.table import Table
 
-from ..measure import Gap
-from ..verdict import state_verdict
+from ..gap import Gap
 from .tables import axis_rows, cause_row, horizon_row, sensor_row
 
 
@@ -43,7 +42,7 @@ def print_gap(gap: Gap, console: Console) -> None:
         console.print(table)
     for remark in gap.remarks:
         console.print(f"note: {remark}", markup=False, highlight=False)
-    console.print(state_verdict(gap), markup=False, highlight=False)
+    console.print(gap.verdict, markup=False, highlight=False)
 
 
 def _make_table(title: str, columns: tuple[str, ...]) -> Table:
