@@ -184,3 +184,18 @@ def test_a_motion_that_is_not_finite_ends_the_run(monkeypatch: pytest.MonkeyPatc
         with pytest.raises(UwsimError, match=r"The position .* cannot be sent to ArduPilot"):
             simulation.advance(0.1)
         assert link.state.exchange.n_exchanges == 0
+
+
+def test_a_saved_state_has_the_numbers_of_the_exchange() -> None:
+    port = free_port()
+    with opened(port) as simulation, Stub(port, descend):
+        simulation.advance(0.1)
+        saved, n = simulation.save(), link_of(simulation).state.exchange.n_exchanges
+        pose = pose_bytes(simulation)
+        simulation.advance(0.1)
+        assert link_of(simulation).state.exchange.n_exchanges == n + 40
+        simulation.restore(saved)
+        assert link_of(simulation).state.exchange.n_exchanges == n
+        assert pose_bytes(simulation) == pose
+        simulation.advance(0.1)  # ArduPilot sees a time that goes back, and continues
+        assert link_of(simulation).state.exchange.n_exchanges == n + 40
