@@ -92,7 +92,7 @@ def test_thrusters_stop_when_no_command_arrives_for_the_timeout(tmp_path: Path) 
 
 def test_a_sentence_may_arrive_in_pieces_on_a_terminal(tmp_path: Path) -> None:
     with open_streams(tmp_path, actuator("pty"), udp_address="127.0.0.1") as simulation:
-        path = stream_of(simulation).description.rpartition(" ")[2]
+        path = stream_of(simulation).description.split()[3]
         terminal = os.open(path, os.O_RDWR | os.O_NOCTTY)
         data = b"noise" + COMMAND.to_sentence().to_bytes()
         for i in range(0, len(data), 7):

@@ -148,7 +148,8 @@ class ActuatorStream(Device):
     def description(self) -> str:
         """The format and the other side, for the user."""
         path = self._connection.path if isinstance(self._connection, TerminalStream) else ""
-        return f"{self.name}: {self._spec.format} from {path or self._spec.address}"
+        source = " ".join(filter(None, (path, self._spec.address)))
+        return f"{self.name}: {self._spec.format} from {source}"
 
     def idle_until(self, time: float) -> float:
         """Return the time of the next check for bytes: the next step, or never."""

@@ -4,11 +4,11 @@
 
     <vehicle> ...
       <u:instrumentStream>
-        <name>gps</name> <topic>/rov/gps</topic> <format>GGA RMC</format>
+        <name>gps_line</name> <topic>/rov/gps</topic> <format>GGA RMC</format>
         <address>udpout:127.0.0.1:9110</address>
       </u:instrumentStream>
       <u:instrumentStream>
-        <name>dvl</name> <topic>/rov/dvl</topic> <format>PD4</format>
+        <name>dvl_line</name> <topic>/rov/dvl</topic> <format>PD4</format>
         <address>serial:/dev/ttyUSB0:115200</address> <bitRate>115200</bitRate>
       </u:instrumentStream>
       <u:instrumentStream>
@@ -149,7 +149,7 @@ class InstrumentStreamSpec(DeviceSpec):
         connection = None
         if self.address and world.connections is not None:
             connection = world.connections.open(self.address)
-        rng = world.stream(f"{vehicle.name}/{self.name}/noise")
+        rng = world.stream(f"{vehicle.name}/{self.name}/position")
         stream = InstrumentStream(self, world, carrier, connection, rng)
         if connection is None and not self.bytes_topic:
             return stream
