@@ -15,7 +15,7 @@ from ..trials import TrialResults
 
 STARBOARD, PORT = PALETTE[2], PALETTE[1]
 """The colours of starboard, green, and of port, red."""
-TRACK_SIZE = (5.6, 4.6)
+TRACK_SIZE = (6.4, 4.2)
 WIDE_SIZE = (7.4, 3.4)
 MIN_WIDTH = 3.0
 """The tactical diameter from which on hulls and dimension lines are drawn [L]."""
@@ -176,7 +176,7 @@ def _draw_hulls(axes: Axes, track: ManoeuvreTrack, colour: str) -> None:
     first_circle = np.flatnonzero(np.abs(heading_change) <= 2.0 * math.pi)
     outline = 0.5 * np.array([[1.0, 0.0], [0.6, 1.0], [-1.0, 1.0], [-1.0, -1.0], [0.6, -1.0]])
     outline[:, 1] *= BEAM_RATIO
-    for k in np.linspace(0, len(first_circle) - 1, N_HULLS).astype(int)[1:]:
+    for k in np.linspace(0, len(first_circle) - 1, N_HULLS).astype(int)[1:-1]:
         i = int(first_circle[k])
         c, s = math.cos(heading_change[i]), math.sin(heading_change[i])
         x = advances[i] + outline[:, 0] * c - outline[:, 1] * s
@@ -191,18 +191,20 @@ def _draw_turn_dimensions(axes: Axes, turn: TurningCircle, length: float) -> Non
     advance, transfer = turn.advance / length, turn.transfer / length
     diameter = turn.tactical_diameter / length
     arrow = {"arrowstyle": "<->", "color": INK, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0}
-    for begin, end, text, offset, ha in (
-        ((0.0, 0.0), (0.0, advance), f"advance {advance:.2f} L", (-4, 0), "right"),
-        ((0.0, advance), (transfer, advance), f"transfer {transfer:.2f} L", (0, 4), "center"),
-        ((0.0, 0.0), (diameter, 0.0), f"tactical diameter {diameter:.2f} L", (0, 4), "center"),
-    ):
+    corner = (0.0, advance)
+    for begin, end, text, place, offset, ha in (
+        ((0.0, 0.0), corner, f"advance {advance:.2f} L", corner, (-3, 2), "right"),
+        (corner, (transfer, advance), f"transfer {transfer:.2f} L", corner, (4, 3), "left"),
+        (
+            (0.0, 0.0), (diameter, 0.0), f"tactical diameter {diameter:.2f} L",
+            (0.5 * diameter, 0.0), (0, 3), "center",
+        ),
+    ):  # fmt: skip
         axes.annotate("", begin, end, arrowprops=arrow)
-        middle = (0.5 * (begin[0] + end[0]), 0.5 * (begin[1] + end[1]))
         axes.annotate(
-            text, middle, xytext=offset, textcoords="offset points", fontsize=7.5, ha=ha,
-            va="center" if ha == "right" else "bottom",
-            rotation=90 if ha == "right" else 0,
-            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.0}, zorder=4,
+            text, place, xytext=offset, textcoords="offset points", fontsize=7.5, ha=ha,
+            va="bottom", zorder=4,
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8},
         )  # fmt: skip
 
 
