@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from ..base.interrupts import is_user_interrupt
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean, type_and_text
+from .autopilot_missions import AutopilotPath, AutopilotStation
 from .control import PI, Feedforward, P
 from .direct import Esm, InverseCompositional, SsdEsm
 from .ecc import Ecc
@@ -24,6 +25,8 @@ from .tracker_node import merge_parameters
 __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
 
 ALGORITHMS: dict[str, type[Algorithm]] = {
+    "autopilot-path": AutopilotPath,
+    "autopilot-station": AutopilotStation,
     "ecc": Ecc,
     "esm": Esm,
     "feedforward": Feedforward,

@@ -119,6 +119,7 @@ def ardupilot_rules(frame: Frame | None) -> tuple[Rule[CheckedScene], ...]:
         Rule(ardupilot.body_axes, Need.MODEL),
         Rule(partial(ardupilot.thruster_layout, frame=frame), Need.MODEL),
         Rule(ardupilot.navigation, Need.MODEL),
+        Rule(ardupilot.start_depth, Need.MODEL),
         Rule(ardupilot.exchange_rate, Need.MODEL),
         Rule(ardupilot.buoyancy, Need.MODEL),
     )

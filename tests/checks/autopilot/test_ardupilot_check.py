@@ -105,6 +105,14 @@ def test_a_home_below_the_surface_is_a_warning(tmp_path: Path) -> None:
     assert "home is 2.00 m below the surface" in "\n".join(map(str, check(tmp_path, scene)))
 
 
+def test_a_start_under_water_is_a_warning(tmp_path: Path) -> None:
+    text = "\n".join(map(str, check(tmp_path, SCENE)))
+    assert "'bluerov2' starts 1.50 m deep" in text
+    higher = SCENE.replace("<z>1.5</z> </position>", "<z>0.3</z> </position>", 1)
+    assert higher != SCENE
+    assert "starts" not in "\n".join(map(str, check(tmp_path, higher)))
+
+
 def test_a_heavy_vehicle_is_a_warning(tmp_path: Path) -> None:
     heavy = HYDRODYNAMICS.replace("<mass>13.5</mass>", "<mass>20</mass>")
     text = "\n".join(map(str, check(tmp_path, SCENE, heavy)))

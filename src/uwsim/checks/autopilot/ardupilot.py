@@ -32,6 +32,8 @@ MAX_HEAVE_SHARE = 0.25
 """The greatest share of the vertical thrust that may only hold the depth [1]."""
 MAX_RATE_ERROR = 0.005
 """The greatest difference of the rate of exchanges from the requested rate, as a fraction [1]."""
+MAX_START_DEPTH = 0.5
+"""The greatest depth of a start that is not reported [m]."""
 MAX_HOME_DEPTH = 0.05
 """The greatest distance of home from the surface that is not reported [m]."""
 
@@ -257,13 +259,21 @@ def navigation(scene: CheckedScene) -> Iterator[Diagnostic]:
                 "depth from there. Set <home> to a point at the surface"
             )
             yield scene.warning(vehicle.source, message, "home")
-        for link in links:
-            if tuple(link.home) != tuple(vehicle.autopilot.home):
-                message = (
-                    f"the vehicle {name!r}: <home> of <u:mavlink> is not that of <u:ardupilot>; "
-                    "positions by MAVLink then disagree with those of its physics"
-                )
-                yield scene.warning(link, message, "home")
+
+
+def start_depth(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """Warn of a submarine that starts under water, where ArduSub sets its depth to 0."""
+    surface = scene.spec.ocean_state.ocean_surface_height
+    for vehicle in steered_vehicles(scene):
+        start = scene.spec.world_from_localized @ vehicle.spec.localized_from_base
+        depth = surface - float(start.position[2])
+        if _is_submarine(vehicle) and depth > MAX_START_DEPTH:
+            message = (
+                f"the vehicle {vehicle.spec.name!r} starts {depth:.2f} m deep. ArduSub sets its "
+                "depth to 0 where it is started, and again whenever it is higher. Start it at the "
+                "surface, or send it only below its start"
+            )
+            yield scene.warning(vehicle.source, message)
 
 
 def _is_submarine(vehicle: SteeredVehicle) -> bool:

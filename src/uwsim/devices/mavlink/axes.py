@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ...base.geometry import Array, Pose
@@ -43,9 +41,9 @@ class HomeFrame:
         home: the position of home in L, (3,) [m].
     """
 
-    def __init__(self, world_from_localized: Pose, home: Sequence[float]) -> None:
+    def __init__(self, world_from_localized: Pose, home: Array) -> None:
         self._world_from_localized = world_from_localized
-        self._home = world_from_localized.transform(np.array(home))
+        self._home = world_from_localized.transform(home)
         self.ned_from_localized = product(NED_FROM_WORLD, world_from_localized.rotation)
         """The rotation from the axes of L to north, east, down, (3, 3)."""
 

@@ -28,7 +28,7 @@ from ...autopilots.mavlink.status import (
     is_autopilot_heartbeat,
     read_text,
 )
-from ...base.geometry import ZERO, Triple, quaternion_from_rotation, rotation_from_rpy
+from ...base.geometry import Triple, quaternion_from_rotation, rotation_from_rpy
 from ...base.record import Record
 from ...base.terminal import report, warn
 from ...errors import MissingExtra
@@ -93,8 +93,9 @@ class MavlinkSpec(DeviceSpec):
     """The standard deviation of the noise that is added to its velocities [m/s]."""
     system: int = element(default=1, minimum=1, maximum=254)
     """The MAVLink system of the sensors, that of the vehicle."""
-    home: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
-    """The origin of the autopilot's local positions, in L [m]; that of ``<u:ardupilot>``."""
+    home: Triple | None = element(default=None, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
+    """The origin of the autopilot's local positions, in L [m]; by default the position of the
+    vehicle at the start, where ArduSub sets its depth to 0."""
     sets_origin: bool = True
     """True if the scene's ``<nedOrigin>`` is sent as the origin of the autopilot's local
     positions."""
@@ -161,7 +162,9 @@ class MavlinkDevice(Device):
         noise = PositionNoise(
             position=spec.position_std, attitude=spec.attitude_std, velocity=spec.velocity_std
         )
-        self._home = HomeFrame(world.world_from_localized, spec.home)
+        start = world.world_from_localized.inverse() @ vehicle.world_from_base
+        home = start.position if spec.home is None else np.array(spec.home)
+        self._home = HomeFrame(world.world_from_localized, home)
         self._sensors = NavigationSensors(
             BodyAxes(vehicle),
             self._home,

@@ -1,0 +1,168 @@
+"""Missions arm an autopilot, set its mode, and send setpoints by simulation time."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import socket
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.support.fake_autopilot import FakeAutopilot
+from uwsim.algorithms import check_parameters
+from uwsim.algorithms.autopilot_missions import AutopilotPath, AutopilotStation, read_path
+from uwsim.assets.bundled import bundled_files
+from uwsim.bus import Algorithm
+from uwsim.devices.ardupilot import ArduPilotSpec
+from uwsim.devices.mavlink import MavlinkSpec
+from uwsim.errors import BadSetting
+from uwsim.messages import Empty
+from uwsim.model.scene_model import SceneModel
+from uwsim.physics.compile_scene import compile_scene
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+
+GUIDED, ALT_HOLD = 4, 2
+
+
+@pytest.fixture(scope="module")
+def port() -> Iterator[socket.socket]:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        yield listener
+
+
+@pytest.fixture(scope="module")
+def model(port: socket.socket) -> SceneModel:
+    """Return bluerov2-scene with MAVLink alone: the fake autopilot has no physics."""
+    scene = read_scene(Path(bundled_files("scenes")["bluerov2-scene"]))
+    (vehicle,) = scene.vehicles
+    link = MavlinkSpec(name="/bluerov2/autopilot", address=f"tcp:127.0.0.1:{port.getsockname()[1]}")
+    parts = [part for part in vehicle.parts if not isinstance(part, ArduPilotSpec | MavlinkSpec)]
+    return compile_scene(replace(scene, vehicles=(replace(vehicle, parts=(*parts, link)),)))
+
+
+class Flight:
+    """A run of a mission with a fake autopilot."""
+
+    def __init__(
+        self,
+        port: socket.socket,
+        model: SceneModel,
+        mission: Algorithm,
+        parameters: dict[str, float | str] | None = None,
+    ) -> None:
+        self.autopilot = FakeAutopilot(listener=port)
+        self.simulation = Simulation(model, is_blind=True, udp_address="127.0.0.1")
+        self.autopilot.accept()
+        self.start_times: list[float] = []
+        self.simulation.bus.services.serve("startBench", Empty, self._start)
+        self.simulation.watch(lambda: self.autopilot.poll(self.simulation.time))
+        self.simulation.attach(mission, parameters=parameters or {})
+
+    def _start(self, _: Empty) -> Empty:
+        self.start_times.append(self.simulation.time)
+        return Empty()
+
+    def close(self) -> None:
+        self.simulation.close()
+        self.autopilot.close()
+
+
+def test_a_station_is_held_armed_and_guided(port: socket.socket, model: SceneModel) -> None:
+    flight = Flight(port, model, AutopilotStation(), {"position": "0.5 -1 2", "yaw": "0.3"})
+    flight.simulation.advance(12.0)
+    autopilot = flight.autopilot
+    assert (autopilot.is_armed, autopilot.mode) == (True, GUIDED)
+    commands = [m for m in autopilot.find_messages("COMMAND_LONG") if m.command in (176, 400)]
+    assert [(m.command, m.param2 if m.command == 176 else m.param1) for m in commands] == [
+        *((176, ALT_HOLD), (400, 1.0), (176, GUIDED))
+    ]
+    setpoint = autopilot.find_messages("SET_POSITION_TARGET_LOCAL_NED")[-1]
+    assert [setpoint.x, setpoint.y, setpoint.z] == pytest.approx([0.5, -1.0, 2.0 - 1.5])
+    assert [setpoint.vx, setpoint.vy, setpoint.vz] == [0, 0, 0]
+    assert setpoint.yaw == pytest.approx(0.3)
+    assert setpoint.type_mask & 0x3F == 0  # a position with a velocity, which is no waypoint
+    sticks = autopilot.find_messages("MANUAL_CONTROL")
+    assert {(m.x, m.y, m.z, m.r) for m in sticks} == {(0, 0, 500, 0)}
+    assert 5.0 < flight.start_times[0] < 11.0
+    flight.close()
+
+
+def test_an_autopilot_that_refuses_to_arm_is_asked_again(
+    port: socket.socket, model: SceneModel
+) -> None:
+    flight = Flight(port, model, AutopilotStation())
+    flight.autopilot.can_arm = False
+    flight.simulation.advance(6.0)
+    assert not flight.autopilot.is_armed
+    assert flight.start_times == []
+    flight.autopilot.can_arm = True
+    flight.simulation.advance(10.0)
+    assert flight.autopilot.is_armed
+    assert flight.start_times
+    flight.close()
+
+
+def test_the_setpoint_of_a_path_moves_at_its_speed(port: socket.socket, model: SceneModel) -> None:
+    flight = Flight(port, model, AutopilotPath())
+    flight.simulation.advance(20.0)
+    setpoints = flight.autopilot.find_messages("SET_POSITION_TARGET_LOCAL_NED")
+    begin = next(m for m in setpoints if m.vx > 0)
+    later = next(m for m in setpoints if m.time_boot_ms >= begin.time_boot_ms + 4000)
+    seconds = 1e-3 * (later.time_boot_ms - begin.time_boot_ms)
+    assert later.x - begin.x == pytest.approx(0.15 * seconds, abs=1e-3)
+    assert later.vx == pytest.approx(0.15)
+    assert later.z == pytest.approx(0.0)  # the depth of the start
+    flight.close()
+
+
+@given(
+    points=st.lists(st.tuples(*[st.integers(-5, 5)] * 3), min_size=2, max_size=6),
+    time=st.floats(0, 200),
+)
+def test_a_setpoint_is_on_its_path_and_moves_along_it(
+    points: list[tuple[int, int, int]], time: float
+) -> None:
+    points = [p for k, p in enumerate(points) if k == 0 or p != points[k - 1]]
+    if len(points) < 2:
+        return
+    mission = AutopilotPath()
+    mission._points = np.array(points, dtype=float)
+    mission._lengths = [math.dist(a, b) for a, b in itertools.pairwise(points)]
+    mission._yaw, mission.parameters = 0.0, {"speed": 0.5}
+    position, velocity, _ = mission.setpoint(time)
+    on_edge = [
+        abs(math.dist(a, position) + math.dist(position, b) - math.dist(a, b)) < 1e-6
+        for a, b in itertools.pairwise(points)
+    ]
+    assert any(on_edge)
+    assert float(np.sqrt(np.sum(velocity**2))) == pytest.approx(0.5 if time > 0 else 0.0)
+
+
+@pytest.mark.parametrize(
+    ("mission", "parameters", "expected"),
+    [
+        (AutopilotStation, {"position": "1 2"}, "expected 3 numbers"),
+        (AutopilotStation, {"position": "1 2 nan"}, "expected 3 numbers"),
+        (AutopilotStation, {"positon": "1 2 3"}, "Did you mean 'position'"),
+        (AutopilotPath, {"path": "1 2 3 4"}, "has 4 numbers"),
+        (AutopilotPath, {"path": "1 2 3 1 2 3"}, "two equal points"),
+        (AutopilotPath, {"yaw": "north"}, "expected a number"),
+    ],
+)
+def test_an_invalid_parameter_is_an_error(
+    mission: type[Algorithm], parameters: dict[str, float | str], expected: str
+) -> None:
+    with pytest.raises(BadSetting, match=expected):
+        check_parameters(mission, parameters)
+
+
+def test_a_path_has_a_limit() -> None:
+    with pytest.raises(BadSetting, match="2 points or more"):
+        read_path(" ".join(["1 2 3 4 5 6"] * 1000))
