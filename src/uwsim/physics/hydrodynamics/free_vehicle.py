@@ -32,13 +32,7 @@ def free_vehicle(model: mujoco.MjModel, root: int) -> FreeVehicle:
         raise NoWater("A free vehicle is simulated by the midpoint rule, not by RK4.")
     parts = [i for i in range(model.nbody) if model.body_rootid[i] == root]
     poses = _find_poses(model, root, parts)
-    bodies = [i for i in parts if model.body_user[i, c.KIND] != c.DRY_BODY]
-    actuators = [
-        i
-        for i in range(model.nactuator)
-        if model.actuator_user[i, c.ROLE] != c.NO_ROLE
-        and int(model.site_bodyid[model.actuator_trnid[i, 0]]) in poses
-    ]
+    bodies, actuators = links_in_water(model, root), actuators_in_water(model, root)
     sites = [int(model.actuator_trnid[i, 0]) for i in actuators]
     limits = [
         model.actuator_ctrlrange[i]
@@ -56,6 +50,25 @@ def free_vehicle(model: mujoco.MjModel, root: int) -> FreeVehicle:
         gravity=np.array(model.opt.gravity),
         density=float(model.body_user[0, c.DENSITY]),
     )
+
+
+def links_in_water(model: mujoco.MjModel, root: int) -> list[int]:
+    """Return the MuJoCo IDs of the links with hydrodynamics, in the order of `FreeVehicle`."""
+    return [
+        i
+        for i in range(model.nbody)
+        if model.body_rootid[i] == root and model.body_user[i, c.KIND] != c.DRY_BODY
+    ]
+
+
+def actuators_in_water(model: mujoco.MjModel, root: int) -> list[int]:
+    """Return the MuJoCo IDs of the thrusters and fins, in the order of `FreeVehicle`."""
+    return [
+        i
+        for i in range(model.nactuator)
+        if model.actuator_user[i, c.ROLE] != c.NO_ROLE
+        and model.body_rootid[model.site_bodyid[model.actuator_trnid[i, 0]]] == root
+    ]
 
 
 _Pose = tuple[Array, Array]  # position (3,) [m] and rotation (3, 3)

@@ -75,7 +75,8 @@ _AXES = _DRAG + f.DRAG
 _PART_AXES = _AXES + 9
 _PART_POSITION = _PART_AXES + 9
 _COM = _PART_POSITION + 3
-_TWIST = _COM + 3
+_ORIGIN = _COM + 3
+_TWIST = _ORIGIN + 3
 _CRB = _TWIST + 6
 _B = _CRB + 10
 WORK = _B + NUMBERS
@@ -126,8 +127,10 @@ def step_one(
     rotate_attitude(q, v, 0.5 * h)
     for i in range(_AXES):
         work[i] = 0.0
-    axes, com, twist = work[_AXES:_PART_AXES], work[_COM:_TWIST], work[_TWIST:_CRB]
+    axes, com, twist = work[_AXES:_PART_AXES], work[_COM:_ORIGIN], work[_TWIST:_CRB]
     _write_axes(q, axes)
+    for i in range(3):
+        work[_ORIGIN + i] = q[i]
     lever = _place_body(vehicle.rigid_body, q, v, axes, com, twist)
     crb = work[_CRB:_B]
     _rotate_rigid(vehicle.rigid_body, axes, crb)
@@ -136,12 +139,11 @@ def step_one(
     bias_y = v[2] * twist[0] - v[0] * twist[2]
     bias_z = v[0] * twist[1] - v[1] * twist[0]
     bias = (0.0, 0.0, 0.0, bias_x, bias_y, bias_z)
-    for part in range(len(vehicle.bodies)):
-        _place_part(vehicle.poses[part], q, axes, work)
-        _add_part(vehicle, part, bias, water, h, work)
-    for i in range(len(vehicle.actuators)):
-        _place_part(vehicle.sites[i], q, axes, work)
-        _add_actuator(vehicle, i, state, commands[i], water, h, work)
+    bodies, poses, weight = vehicle.bodies, vehicle.poses, vehicle.gravity
+    for part in range(len(bodies)):
+        _place_part(poses[part], q, axes, work)
+        _add_part(bodies[part], weight, bias, water, h, work)
+    _add_actuators(vehicle, state, commands, water, h, work)
     fill_inertia(crb, work, f.FF, _DRAG, b)
     fill_motion(twist, water, lever, work, 0, b)
     known_rate = (b[RATE + 3], b[RATE + 4], b[RATE + 5])  # the rate without accelerations
@@ -163,10 +165,11 @@ def step_one(
 @njit
 def advance_actuators(vehicle: FreeVehicle, state: Floats, commands: Floats, h: float) -> None:
     """Advance the rotors and fins of a vehicle alone by a step; see `step_one`."""
-    for i in range(len(vehicle.actuators)):
-        table, k = vehicle.actuators[i], ACTUATORS + i
+    actuators, limits = vehicle.actuators, vehicle.limits
+    for i in range(len(actuators)):
+        table, k = actuators[i], ACTUATORS + i
         if table[c.ROLE] == c.PROPELLER:
-            command = min(max(commands[i], vehicle.limits[i, 0]), vehicle.limits[i, 1])
+            command = min(max(commands[i], limits[i, 0]), limits[i, 1])
             state[k] += lag_share(table[c.LAG], h) * (command - state[k])
         else:
             state[k] += h * servo_speed(table, state[k], commands[i], h, False)
@@ -235,11 +238,10 @@ def _rotate_rigid(rigid_body: Floats, axes: Floats, crb: Floats) -> None:
 
 @njit
 def _add_part(
-    vehicle: FreeVehicle, part: int, bias: Six, water: Floats, h: float, work: Floats
+    table: Floats, gravity: Floats, bias: Six, water: Floats, h: float, work: Floats
 ) -> None:
     """Add the wrench, the momentum and the inertia of the water at a link, as `kernel` does."""
-    table = vehicle.bodies[part]
-    axes, com = work[_PART_AXES:_PART_POSITION], work[_COM:_TWIST]
+    axes, com = work[_PART_AXES:_PART_POSITION], work[_COM:_ORIGIN]
     position, twist = work[_PART_POSITION:_COM], work[_TWIST:_CRB]
     _, lever = reference_point(table, position, axes, com)
     nu = relative_twist(axes, lever, twist, water)
@@ -255,7 +257,7 @@ def _add_part(
         momentum = diagonal_momentum(table, nu)
     force = subtract(force, coriolis(nu, omega, momentum))
     wrench = move_wrench(axes, lever, 1.0, force)
-    lift = buoyancy(table[c.DISPLACED_MASS], water, vehicle.gravity, 1.0)
+    lift = buoyancy(table[c.DISPLACED_MASS], water, gravity, 1.0)
     centre = (table[c.CENTRE], table[c.CENTRE + 1], table[c.CENTRE + 2])
     add_wrench(axes, lever, centre, wrench, lift, work, f.WRENCH)
     impulse = move_wrench(axes, lever, 1.0, momentum)
@@ -273,46 +275,76 @@ def _add_part(
 
 
 @njit
-def _add_actuator(
-    vehicle: FreeVehicle,
-    i: int,
-    state: Floats,
+def _add_actuators(
+    vehicle: FreeVehicle, state: Floats, commands: Floats, water: Floats, h: float, work: Floats
+) -> None:
+    """Add the forces of thrusters and fins in the middle of the step, as `kernel` does.
+
+    They are summed in base axes about the centre of mass.
+    """
+    fx, fy, fz, tx, ty, tz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    actuators, sites, limits = vehicle.actuators, vehicle.sites, vehicle.limits
+    rigid_body, density = vehicle.rigid_body, vehicle.density
+    for i in range(len(actuators)):
+        table, pose, actuator_state = actuators[i], sites[i], state[ACTUATORS + i]
+        twisting = 0.0
+        if table[c.ROLE] == c.PROPELLER:
+            command = min(max(commands[i], limits[i, 0]), limits[i, 1])
+            x = _thrust(table, pose, actuator_state, command, density, water, h, work)
+            y, twisting = 0.0, table[c.TORQUE]
+        else:
+            speed = servo_speed(table, actuator_state, commands[i], h, False)
+            u, v = _site_velocity(pose, water, work)
+            x, y = foil_force(table, actuator_state + 0.5 * h * speed, u, v, density)
+        ex, ey, ez = (
+            pose[3] * x + pose[4] * y,
+            pose[6] * x + pose[7] * y,
+            pose[9] * x + pose[10] * y,
+        )
+        rx, ry, rz = pose[0] - rigid_body[1], pose[1] - rigid_body[2], pose[2] - rigid_body[3]
+        fx, fy, fz = fx + ex, fy + ey, fz + ez
+        tx += ry * ez - rz * ey + twisting * ex
+        ty += rz * ex - rx * ez + twisting * ey
+        tz += rx * ey - ry * ex + twisting * ez
+    axes = work[_AXES:_PART_AXES]
+    force, torque = to_world(axes, fx, fy, fz), to_world(axes, tx, ty, tz)
+    for i in range(3):
+        work[f.WRENCH + i] += torque[i]
+        work[f.WRENCH + 3 + i] += force[i]
+
+
+@njit
+def _thrust(
+    table: Floats,
+    pose: Floats,
+    actuator_state: float,
     command: float,
+    density: float,
     water: Floats,
     h: float,
     work: Floats,
-) -> None:
-    """Add the force of a thruster or a fin in the middle of the step, as `kernel` does."""
-    table, actuator_state = vehicle.actuators[i], state[ACTUATORS + i]
-    axes, com = work[_PART_AXES:_PART_POSITION], work[_COM:_TWIST]
+) -> float:
+    """Return the thrust of a thruster [N]."""
+    lag = lag_share(table[c.LAG], 0.5 * h)
+    thrust = static_thrust(table, actuator_state + lag * (command - actuator_state))
+    if table[c.N_ADVANCE] > 0.0:
+        speed = _site_velocity(pose, water, work)[0]
+        thrust *= 1.0 - inflow_loss(table, thrust, speed, density)
+    return thrust
+
+
+@njit
+def _site_velocity(pose: Floats, water: Floats, work: Floats) -> tuple[float, float]:
+    """Return the velocity of a site through the water along its x and y axes [m/s]."""
+    _place_part(pose, work[_ORIGIN:_TWIST], work[_AXES:_PART_AXES], work)
+    axes, com = work[_PART_AXES:_PART_POSITION], work[_COM:_ORIGIN]
     lever = (
         work[_PART_POSITION] - com[0],
         work[_PART_POSITION + 1] - com[1],
         work[_PART_POSITION + 2] - com[2],
     )
-    torque = 0.0
-    if table[c.ROLE] == c.PROPELLER:
-        command = min(max(command, vehicle.limits[i, 0]), vehicle.limits[i, 1])
-        thrust = static_thrust(
-            table, actuator_state + lag_share(table[c.LAG], 0.5 * h) * (command - actuator_state)
-        )
-        if table[c.N_ADVANCE] > 0.0:
-            speed = relative_twist(axes, lever, work[_TWIST:_CRB], water)[0]
-            thrust *= 1.0 - inflow_loss(table, thrust, speed, vehicle.density)
-        force, torque = (thrust, 0.0, 0.0), table[c.TORQUE]
-    else:
-        flow = relative_twist(axes, lever, work[_TWIST:_CRB], water)
-        angle = actuator_state + 0.5 * h * servo_speed(table, actuator_state, command, h, False)
-        x, y = foil_force(table, angle, flow[0], flow[1], vehicle.density)
-        force = (x, y, 0.0)
-    fx, fy, fz = to_world(axes, force[0], force[1], force[2])
-    rx, ry, rz = lever
-    work[f.WRENCH] += ry * fz - rz * fy + torque * fx
-    work[f.WRENCH + 1] += rz * fx - rx * fz + torque * fy
-    work[f.WRENCH + 2] += rx * fy - ry * fx + torque * fz
-    work[f.WRENCH + 3] += fx
-    work[f.WRENCH + 4] += fy
-    work[f.WRENCH + 5] += fz
+    flow = relative_twist(axes, lever, work[_TWIST:_CRB], water)
+    return flow[0], flow[1]
 
 
 @njit

@@ -1,0 +1,255 @@
+"""The identification of a vehicle: from logs to coefficients with intervals and validation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from ..base.geometry import Array
+from ..base.rng import stream
+from ..errors import BadSetting
+from ..logs import VehicleLog
+from .excitation import AxisExcitation, give_advice, measure_excitation
+from .least_squares import Loss, Solution, linearise, minimise
+from .noise import MAX_CHANGE, first_noise, residual_noise
+from .parameters import Parameter, choose_parameters
+from .residuals import N_CHANNELS, Fit, Residuals
+from .uncertainty import Uncertainty, compute_uncertainty
+from .validation import HorizonError, compare_horizons, simulate_errors, split_folds
+from .vehicle_model import VehicleModel
+from .windows import Windows, WindowSettings, cut_windows
+
+COARSE_STEP = 0.02
+"""The step of the simulation far from the minimum [s]; that of the settings is used near it."""
+START_FACTOR = 3.0
+"""The factor by which further starts differ from the first guess."""
+START_ITERATIONS, FOLD_ITERATIONS = 12, 6
+"""The greatest number of iterations of a further start, and of a fold."""
+MAX_START_WINDOWS = 20
+"""The number of windows that the starts use."""
+NOISE_ROUNDS = 3
+"""The greatest number of times that the noise is estimated."""
+SAME_COST = 1e-3
+"""The relative difference of sums of squares up to which two starts reach the same minimum."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class IdentifySettings:
+    """The settings of an identification."""
+
+    free: tuple[str, ...]
+    """The names of coefficients and groups."""
+    windows: WindowSettings = field(default_factory=WindowSettings)
+    """The lengths of windows, steps and samples."""
+    n_starts: int = 4
+    """The number of starts."""
+    n_folds: int = 4
+    """The number of folds of the cross-validation; less than 2: none."""
+    loss: Loss = "linear"
+    """The loss."""
+    noise: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    """The noise that is given, by group of channels."""
+    seed: int = 0
+    """The seed of the starts."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Identification:
+    """The result of an identification."""
+
+    model: VehicleModel
+    """The vehicle with its first guess."""
+    settings: IdentifySettings
+    """The settings."""
+    logs: tuple[VehicleLog, ...]
+    """The logs."""
+    windows: Windows
+    """The windows."""
+    uncertainty: Uncertainty
+    """The coefficients with their intervals and correlations."""
+    noise: Array
+    """The noise of each channel, (12,)."""
+    chi_squared: float
+    """The sum of squared residuals per measurement."""
+    n_same_minimum: int
+    """The number of starts that reach the same minimum."""
+    excitation: tuple[AxisExcitation, ...]
+    """The excitation of each axis."""
+    advice: tuple[str, ...]
+    """The advice on further experiments."""
+    horizons: tuple[HorizonError, ...]
+    """The errors of windows that were held out; empty without a cross-validation."""
+    first_errors: Array
+    """Measured minus simulated motion with the first guess, (windows, samples, 12)."""
+    held_out_errors: Array
+    """The same with coefficients that were fitted to other windows, or to all without folds."""
+
+    @property
+    def values(self) -> Array:
+        """The coefficients, (p,)."""
+        return np.array([estimate.value for estimate in self.uncertainty.estimates])
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The coefficients that were fitted."""
+        return tuple(estimate.parameter for estimate in self.uncertainty.estimates)
+
+
+class Counter:
+    """The progress of an identification: done and all pieces of work."""
+
+    def __init__(self, total: int, on_progress: Callable[[int, int], object] | None) -> None:
+        self._total, self._done, self._on_progress = total, 0, on_progress
+
+    def count(self) -> None:
+        """Count a piece of work."""
+        self._done += 1
+        if self._on_progress is not None:
+            self._on_progress(self._done, self._total)
+
+
+def identify(
+    logs: Sequence[VehicleLog],
+    model: VehicleModel,
+    settings: IdentifySettings,
+    *,
+    on_progress: Callable[[int, int], object] | None = None,
+) -> Identification:
+    """Fit coefficients of a vehicle to logs.
+
+    Args:
+        logs: the logs.
+        model: the vehicle with its first guess.
+        settings: the settings.
+        on_progress: a function that is called with the number of finished and of all pieces.
+
+    Raises:
+        BadSetting: a name of a coefficient, a log or a setting is invalid; with every error.
+    """
+    parameters = choose_parameters(settings.free, model)
+    windows = cut_windows(logs, model, settings.windows)
+    coarse_settings = replace(settings.windows, step=max(COARSE_STEP, settings.windows.step))
+    coarse = Residuals(model, parameters, cut_windows(logs, model, coarse_settings))
+    rows = np.linspace(0, len(windows) - 1, min(len(windows), MAX_START_WINDOWS)).round()
+    some = Residuals(model, parameters, coarse.windows.select(rows.astype(int).tolist()))
+    fine = Residuals(model, parameters, windows)
+    n_folds = min(settings.n_folds, len(windows)) if settings.n_folds > 1 else 0
+    counter = Counter(settings.n_starts + 2 + n_folds, on_progress)
+    starts, noise = _search(some, settings, counter)
+    best = min(starts, key=lambda solution: solution.cost)
+    n_same = sum(solution.cost <= (1.0 + SAME_COST) * best.cost for solution in starts)
+    solution, noise = _refine(fine, best.fit.values, noise, settings)
+    counter.count()
+    problem = linearise(fine, solution.fit, 1.0 / noise, settings.loss)
+    uncertainty = compute_uncertainty(problem, parameters, solution.fit.values)
+    counter.count()
+    first_errors = simulate_errors(fine, fine.start().values)
+    held_out = _validate(coarse, fine, solution.fit, noise, settings, counter)
+    excitation = measure_excitation(windows, noise)
+    rows = fine.compute(solution.fit, 1.0 / noise)
+    return Identification(
+        model=model,
+        settings=settings,
+        logs=tuple(logs),
+        windows=windows,
+        uncertainty=uncertainty,
+        noise=noise,
+        chi_squared=float((rows * rows).sum() / max(np.count_nonzero(rows), 1)),
+        n_same_minimum=n_same,
+        excitation=excitation,
+        advice=give_advice(excitation, uncertainty.estimates, uncertainty.weak_directions),
+        horizons=compare_horizons(windows, first_errors, held_out) if n_folds else (),
+        first_errors=first_errors,
+        held_out_errors=held_out,
+    )
+
+
+def _search(
+    residuals: Residuals, settings: IdentifySettings, counter: Counter
+) -> tuple[list[Solution], Array]:
+    """Return the minima from all starts with one noise, which the first start gives."""
+    if settings.n_starts < 1:
+        raise BadSetting(f"--starts is {settings.n_starts}; expected 1 or more.")
+    noise = first_noise(residuals, settings.noise)
+    solution = minimise(residuals, residuals.start(), 1.0 / noise, loss=settings.loss)
+    rows = residuals.compute(solution.fit, 1.0 / noise)
+    noise = residual_noise(residuals, rows, noise, settings.noise)
+    solutions = [minimise(residuals, solution.fit, 1.0 / noise, loss=settings.loss)]
+    counter.count()
+    for number in range(1, settings.n_starts):
+        start = _draw_start(residuals, settings.seed, number)
+        solutions.append(
+            minimise(
+                residuals,
+                start,
+                1.0 / noise,
+                loss=settings.loss,
+                max_iterations=START_ITERATIONS,
+            )
+        )
+        counter.count()
+    return solutions, noise
+
+
+def _draw_start(residuals: Residuals, seed: int, number: int) -> Fit:
+    """Return a start far from the first guess, within the bounds of all coefficients."""
+    generator = stream(seed, f"identification/start/{number}")
+    values = []
+    for parameter in residuals.parameters:
+        draw = float(generator.uniform(-1.0, 1.0))
+        guess, error = parameter.first_guess, parameter.plausible_error
+        if guess > 0.0 and error >= 0.25 * guess:
+            value = guess * START_FACTOR**draw
+        else:
+            value = guess + draw * error
+        values.append(min(max(value, parameter.minimum), parameter.maximum))
+    return Fit(values=np.array(values), offsets=np.zeros((len(residuals.windows), N_CHANNELS)))
+
+
+def _refine(
+    residuals: Residuals, values: Array, noise: Array, settings: IdentifySettings
+) -> tuple[Solution, Array]:
+    """Return the minimum and the noise, which are estimated in turns."""
+    fit = Fit(values=values, offsets=residuals.start().offsets)
+    for _ in range(NOISE_ROUNDS):
+        solution = minimise(residuals, fit, 1.0 / noise, loss=settings.loss)
+        fit = solution.fit
+        rows = residuals.compute(fit, 1.0 / noise)
+        new_noise = residual_noise(residuals, rows, noise, settings.noise)
+        change = float(np.abs(new_noise / noise - 1.0).max())
+        if change <= MAX_CHANGE:
+            break
+        noise = new_noise
+    return solution, noise
+
+
+def _validate(
+    coarse: Residuals,
+    fine: Residuals,
+    fit: Fit,
+    noise: Array,
+    settings: IdentifySettings,
+    counter: Counter,
+) -> Array:
+    """Return the errors of all windows with coefficients that were fitted to other windows.
+
+    Without folds, the coefficients are those of all windows.
+    """
+    errors = simulate_errors(fine, fit.values)
+    if settings.n_folds < 2 or len(fine.windows) < 2:
+        return errors
+    n = len(coarse.windows)
+    for fold in split_folds(n, settings.n_folds):
+        others = [i for i in range(n) if i not in set(fold)]
+        part = Residuals(fine.model, fine.parameters, coarse.windows.select(others))
+        start = Fit(values=fit.values, offsets=fit.offsets[others])
+        solution = minimise(
+            part, start, 1.0 / noise, loss=settings.loss, max_iterations=FOLD_ITERATIONS
+        )
+        held_out = Residuals(fine.model, fine.parameters, fine.windows.select(fold))
+        errors[fold] = simulate_errors(held_out, solution.fit.values)
+        counter.count()
+    return errors

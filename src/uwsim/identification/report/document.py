@@ -1,0 +1,100 @@
+"""The numbers of an identification as JSON."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from ...version import __version__
+from ..identify import Identification
+from ..residuals import CHANNELS
+from ..uncertainty import Estimate
+from .numbers import round_number
+
+FORMAT = 1
+"""The version of the format."""
+
+
+def json_text(result: Identification) -> str:
+    """Return ``identification.json``: the same logs and settings give the same bytes."""
+    settings, uncertainty = result.settings, result.uncertainty
+    document = {
+        "uwsim_identification": FORMAT,
+        "version": __version__,
+        "vehicle": result.model.name,
+        "first_guess": result.model.hydrodynamics.name,
+        "logs": [
+            {"name": log.path.replace("\\", "/").rsplit("/", 1)[-1], "sha256": log.sha256}
+            for log in result.logs
+        ],
+        "settings": {
+            "free": list(settings.free),
+            "window": settings.windows.length,
+            "step": settings.windows.step,
+            "rate": settings.windows.rate,
+            "starts": settings.n_starts,
+            "folds": settings.n_folds,
+            "loss": settings.loss,
+            "seed": settings.seed,
+        },
+        "coefficients": [_describe_estimate(estimate) for estimate in uncertainty.estimates],
+        "correlations": [
+            [round_number(round(value, 6)) for value in row]
+            for row in uncertainty.correlations.tolist()
+        ],
+        "undetermined_combinations": [
+            {
+                "coefficients": list(direction.names),
+                "relative_changes": [round_number(change) for change in direction.changes],
+                "error": round_number(direction.error),
+                "text": direction.describe(),
+            }
+            for direction in uncertainty.weak_directions
+        ],
+        "interval_method": "the wider of white noise and robust over windows",
+        "window_correction": round_number(uncertainty.correction),
+        "noise": {
+            channel: round_number(noise)
+            for channel, noise in zip(CHANNELS, result.noise.tolist(), strict=True)
+        },
+        "chi_squared_per_measurement": round_number(result.chi_squared),
+        "starts_at_this_minimum": result.n_same_minimum,
+        "windows": len(result.windows),
+        "held_out_errors": [
+            {
+                "quantity": error.quantity,
+                "unit": error.unit,
+                "horizon": error.horizon,
+                "windows": error.n_windows,
+                "before": round_number(error.before),
+                "after": round_number(error.after),
+            }
+            for error in result.horizons
+        ],
+        "excitation": [
+            {
+                "axis": row.axis,
+                "rms_velocity": round_number(row.speed),
+                "max_velocity": round_number(row.max_speed),
+                "is_excited": row.is_excited,
+            }
+            for row in result.excitation
+        ],
+        "advice": list(result.advice),
+        "remarks": list(result.windows.remarks),
+    }
+    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
+
+
+def _describe_estimate(estimate: Estimate) -> dict[str, Any]:
+    return {
+        "name": estimate.parameter.name,
+        "unit": estimate.parameter.unit,
+        "value": round_number(estimate.value),
+        "low": round_number(estimate.low),
+        "high": round_number(estimate.high),
+        "standard_error": round_number(estimate.standard_error),
+        "first_guess": round_number(estimate.parameter.first_guess),
+        "is_determined": estimate.is_determined,
+        "is_at_bound": estimate.is_at_bound,
+    }

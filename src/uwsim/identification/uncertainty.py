@@ -1,0 +1,185 @@
+r"""The intervals and correlations of coefficients, and combinations that the logs do not determine.
+
+With the derivatives :math:`J_w` of the weighted residuals of a window, without initial states, the
+covariance for white noise is :math:`H^{-1}`, :math:`H = \sum_w J_w^T J_w + \Sigma_0^{-1}`, with the
+plausible errors of the first guess in :math:`\Sigma_0`. Residuals of a wrong model are correlated
+in time. Windows are then the independent units, and the covariance is (White, Econometrica 48,
+1980; Liang and Zeger, Biometrika 73, 1986)
+
+.. math:: \frac{n}{n - 1} H^{-1} \Bigl(\sum_w g_w g_w^T + \Sigma_0^{-1}\Bigr) H^{-1},
+          \qquad g_w = J_w^T r_w
+
+with the gradient g of each of the n windows. An interval is the wider one of both: with the normal
+quantile for white noise, and with that of Student's t with n - 1 degrees of freedom for windows.
+
+A direction of the coefficients, in plausible errors, is not determined if the logs leave an error
+of more than `MAX_ERROR` along it (singular values of the scaled derivatives).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..base.geometry import Array
+from .least_squares import Reduced
+from .parameters import Parameter
+from .triangles import compute_triangles
+
+CONFIDENCE = 0.95
+"""The confidence of intervals."""
+MAX_ERROR = 0.5
+"""The greatest error of a coefficient that is determined, in plausible errors of a first guess."""
+MIN_SHARE = 0.2
+"""The relative change of a coefficient along a direction, compared with the greatest one, from
+which on it is listed."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimate:
+    """The estimate of a coefficient."""
+
+    parameter: Parameter
+    """The coefficient."""
+    value: float
+    """Its value."""
+    standard_error: float
+    """Its standard error."""
+    low: float
+    """The lower end of its interval."""
+    high: float
+    """The upper end of its interval."""
+    is_determined: bool
+    """The logs determine it: its error is well below that of a first guess."""
+    is_at_bound: bool
+    """It is at its smallest or greatest value."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WeakDirection:
+    """A combination of coefficients that the logs do not determine."""
+
+    names: tuple[str, ...]
+    """The coefficients that change along it."""
+    changes: tuple[float, ...]
+    """Their relative changes, compared with the greatest one."""
+    error: float
+    """The error that the logs leave along it, in plausible errors; infinite: they say nothing."""
+
+    def describe(self) -> str:
+        """Return a sentence about the combination."""
+        left = "nothing" if self.error > 100.0 else f"{self.error:.1f} plausible errors"
+        if len(self.names) == 1:
+            return (
+                f"{self.names[0]} is not determined: the logs leave {left} of doubt."
+                if (left != "nothing")
+                else f"{self.names[0]} is not determined: the logs say nothing about it."
+            )
+        names = f"{', '.join(self.names[:-1])} and {self.names[-1]}"
+        alike = min(self.changes) > 0.0
+        relation = "only their ratios are" if alike else "only a combination of them is"
+        return (
+            f"{names} are not determined together: {relation}. Fix one by a measurement of its own."
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Uncertainty:
+    """The uncertainty of a fit."""
+
+    estimates: tuple[Estimate, ...]
+    """The estimate of each coefficient."""
+    correlations: Array
+    """The correlations of the coefficients, (p, p)."""
+    weak_directions: tuple[WeakDirection, ...]
+    """The combinations that the logs do not determine."""
+    correction: float
+    """The median ratio of the standard errors by windows to those for white noise."""
+
+
+def compute_uncertainty(
+    problem: Reduced, parameters: Sequence[Parameter], values: Array
+) -> Uncertainty:
+    """Compute intervals, correlations and weak directions.
+
+    Args:
+        problem: the linear problem at the minimum, in plausible errors.
+        parameters: the coefficients.
+        values: their values, (p,).
+    """
+    from scipy.special import ndtri, stdtrit
+
+    p, n = len(parameters), len(problem.triangles)
+    scales = np.array([parameter.plausible_error for parameter in parameters])
+    guesses = np.array([parameter.first_guess for parameter in parameters])
+    rows = problem.triangles.reshape(-1, p)
+    hessian = np.einsum("ij,ik->jk", rows, rows) + np.eye(p)
+    covariance = np.linalg.inv(hessian)
+    gradients = (problem.triangles * problem.targets[:, :, None]).sum(axis=1)  # (n, p)
+    gradients = gradients + (values - guesses) / scales / n  # the sum at a minimum is 0
+    spread = np.einsum("ij,ik->jk", gradients, gradients) * n / max(n - 1, 1) + np.eye(p)
+    by_windows = np.linalg.multi_dot([covariance, spread, covariance])
+    white_errors = np.sqrt(np.diag(covariance))
+    window_errors = np.sqrt(np.diag(by_windows)) if n > 1 else white_errors
+    quantile = float(ndtri(0.5 + 0.5 * CONFIDENCE))
+    window_quantile = float(stdtrit(max(n - 1, 1), 0.5 + 0.5 * CONFIDENCE)) if n > 1 else quantile
+    half_widths = np.maximum(quantile * white_errors, window_quantile * window_errors)
+    errors = np.maximum(white_errors, window_errors)
+    estimates = tuple(
+        _make_estimate(parameter, value, error, half_width)
+        for parameter, value, error, half_width in zip(
+            parameters, values.tolist(), errors.tolist(), half_widths.tolist(), strict=True
+        )
+    )
+    return Uncertainty(
+        estimates=estimates,
+        correlations=covariance / np.outer(white_errors, white_errors),
+        weak_directions=_find_weak_directions(rows, parameters, values),
+        correction=float(np.median(window_errors / white_errors)),
+    )
+
+
+def _make_estimate(parameter: Parameter, value: float, error: float, half_width: float) -> Estimate:
+    """Return an estimate; error and half width are in plausible errors."""
+    scale = parameter.plausible_error
+    reach = 1e-3 * (parameter.maximum - parameter.minimum)
+    is_low = value - parameter.minimum <= min(reach, 0.01 * scale)
+    return Estimate(
+        parameter=parameter,
+        value=value,
+        standard_error=scale * error,
+        low=max(value - scale * half_width, parameter.minimum),
+        high=min(value + scale * half_width, parameter.maximum),
+        is_determined=error <= MAX_ERROR,
+        is_at_bound=is_low or parameter.maximum - value <= min(reach, 0.01 * scale),
+    )
+
+
+def _find_weak_directions(
+    rows: Array, parameters: Sequence[Parameter], values: Array
+) -> tuple[WeakDirection, ...]:
+    _, sizes, directions = np.linalg.svd(compute_triangles(rows[None])[0])
+    found = []
+    for size, direction in zip(sizes.tolist()[::-1], directions[::-1], strict=True):
+        if size * MAX_ERROR >= 1.0:
+            break
+        changes = np.array(
+            [
+                share * parameter.plausible_error / max(abs(value), 0.1 * parameter.plausible_error)
+                for share, parameter, value in zip(
+                    direction.tolist(), parameters, values.tolist(), strict=True
+                )
+            ]
+        )
+        changes = changes / changes[np.argmax(np.abs(changes))]
+        chosen = [i for i in range(len(changes)) if abs(changes[i]) >= MIN_SHARE]
+        found.append(
+            WeakDirection(
+                names=tuple(parameters[i].name for i in chosen),
+                changes=tuple(float(changes[i]) for i in chosen),
+                error=1.0 / size if size > 1e-9 else float("inf"),
+            )
+        )
+    return tuple(found)
