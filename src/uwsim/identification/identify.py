@@ -55,6 +55,11 @@ class IdentifySettings:
     seed: int = 0
     """The seed of the starts."""
 
+    @property
+    def n_pieces(self) -> int:
+        """The number of pieces of work, of which the progress tells."""
+        return self.n_starts + 2 + (self.n_folds if self.n_folds > 1 else 0)
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Identification:
@@ -136,8 +141,7 @@ def identify(
     rows = np.linspace(0, len(windows) - 1, min(len(windows), MAX_START_WINDOWS)).round()
     some = Residuals(model, parameters, coarse.windows.select(rows.astype(int).tolist()))
     fine = Residuals(model, parameters, windows)
-    n_folds = min(settings.n_folds, len(windows)) if settings.n_folds > 1 else 0
-    counter = Counter(settings.n_starts + 2 + n_folds, on_progress)
+    counter = Counter(settings.n_pieces, on_progress)
     starts, noise = _search(some, settings, counter)
     best = min(starts, key=lambda solution: solution.cost)
     n_same = sum(solution.cost <= (1.0 + SAME_COST) * best.cost for solution in starts)
@@ -161,7 +165,7 @@ def identify(
         n_same_minimum=n_same,
         excitation=excitation,
         advice=give_advice(excitation, uncertainty.estimates, uncertainty.weak_directions),
-        horizons=compare_horizons(windows, first_errors, held_out) if n_folds else (),
+        horizons=compare_horizons(windows, first_errors, held_out) if settings.n_folds > 1 else (),
         first_errors=first_errors,
         held_out_errors=held_out,
     )

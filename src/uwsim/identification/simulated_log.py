@@ -44,7 +44,7 @@ class Excitation:
 
     duration: float = 120.0
     """The length [s]."""
-    amplitudes: tuple[float, ...] = (0.4, 0.4, 0.35, 0.03, 0.03, 0.12)
+    amplitudes: tuple[float, ...] = (0.4, 0.4, 0.35, 0.012, 0.012, 0.06)
     """The greatest commands along surge, sway, heave, roll, pitch and yaw [1]."""
     min_hold: float = 0.8
     """The shortest time for which a command holds [s]."""
