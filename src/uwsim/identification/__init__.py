@@ -3,7 +3,7 @@
 .. code-block:: python
 
     model = open_vehicle(make_scene("my_rov.xml"))
-    settings = IdentifySettings(free=("added_mass", "drag", "thrust"))
+    settings = IdentifySettings(free_names=("added_mass", "drag", "thrust"))
     result = identify([read_log("dive.csv")], model, settings)
     print(result.uncertainty.estimates, result.advice)
 """

@@ -23,8 +23,8 @@ ROBOT = "bluerov2_heavy.urdf"
 LOG_NAME, GUESS_NAME = "swim.csv", "guess.xml"
 """The names of the files."""
 SOURCE = (
-    "First guess by the rules of thumb of docs/your-own-vehicle.md: half the displaced mass, half "
-    "the inertia, 500 A for each projected area A, and a tenth of that for slow motion."
+    "First guess by the rules of thumb of docs/your-own-vehicle.md. Added mass: half the displaced "
+    "mass or inertia. Drag: 500 A for a projected area A, and a tenth of that for slow motion."
 )
 ADDED_MASS = (6.7, 6.7, 6.7, 0.13, 0.115, 0.185)
 LINEAR_DAMPING = (7.3, 5.8, 13.1, 0.1, 0.1, 0.1)

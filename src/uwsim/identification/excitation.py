@@ -50,7 +50,7 @@ def measure_excitation(windows: Windows, noise: Array) -> tuple[AxisExcitation, 
     """
     rows = []
     for axis, name in enumerate(AXES):
-        velocities = windows.measured[:, :, 7 + axis]
+        velocities = windows.samples[:, :, 7 + axis]
         velocities = np.abs(velocities[np.isfinite(velocities)])
         if not velocities.size:
             continue
@@ -78,9 +78,9 @@ def give_advice(
     idle_axes = [row.axis for row in excitation if not row.is_excited and row.axis in free_axes]
     for axis in idle_axes:
         advice.append(f"{axis} was never excited: {MANOEUVRES[axis]}.")
-    doubtful = {_axis_of(estimate) for estimate in estimates if not estimate.is_determined}
+    doubtful_axes = {_axis_of(estimate) for estimate in estimates if not estimate.is_determined}
     for axis in AXES:
-        if axis in doubtful and axis not in idle_axes:
+        if axis in doubtful_axes and axis not in idle_axes:
             advice.append(f"{axis} needs more excitation: {MANOEUVRES[axis]}.")
     groups = {name.partition("[")[0] for direction in weak_directions for name in direction.names}
     if any(len(direction.names) > 1 for direction in weak_directions):

@@ -118,7 +118,7 @@ def describe_source(result: Identification) -> str:
     settings = result.settings
     first = result.model.hydrodynamics
     return (
-        f"Identified by uwsim {__version__} from {logs}. Free: {','.join(settings.free)}; "
+        f"Identified by uwsim {__version__} from {logs}. Free: {','.join(settings.free_names)}; "
         f"{len(result.windows)} windows of {settings.windows.length:g} s, loss {settings.loss}, "
         f"seed {settings.seed}. First guess and all other numbers: {first.name} ({first.source})"
     )

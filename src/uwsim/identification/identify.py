@@ -40,7 +40,7 @@ SAME_COST = 1e-3
 class IdentifySettings:
     """The settings of an identification."""
 
-    free: tuple[str, ...]
+    free_names: tuple[str, ...]
     """The names of coefficients and groups."""
     windows: WindowSettings = field(default_factory=WindowSettings)
     """The lengths of windows, steps and samples."""
@@ -88,7 +88,7 @@ class Identification:
     horizons: tuple[HorizonError, ...]
     """The errors of windows that were held out; empty without a cross-validation."""
     first_errors: Array
-    """Measured minus simulated motion with the first guess, (windows, samples, 12)."""
+    """The measured minus the simulated motion with the first guess, (windows, samples, 12)."""
     held_out_errors: Array
     """The same with coefficients that were fitted to other windows, or to all without folds."""
 
@@ -107,13 +107,13 @@ class Counter:
     """The progress of an identification: done and all pieces of work."""
 
     def __init__(self, total: int, on_progress: Callable[[int, int], object] | None) -> None:
-        self._total, self._done, self._on_progress = total, 0, on_progress
+        self._total, self._n_done, self._on_progress = total, 0, on_progress
 
     def count(self) -> None:
         """Count a piece of work."""
-        self._done += 1
+        self._n_done += 1
         if self._on_progress is not None:
-            self._on_progress(self._done, self._total)
+            self._on_progress(self._n_done, self._total)
 
 
 def identify(
@@ -134,26 +134,28 @@ def identify(
     Raises:
         BadSetting: a name of a coefficient, a log or a setting is invalid; with every error.
     """
-    parameters = choose_parameters(settings.free, model)
+    parameters = choose_parameters(settings.free_names, model)
     windows = cut_windows(logs, model, settings.windows)
     coarse_settings = replace(settings.windows, step=max(COARSE_STEP, settings.windows.step))
-    coarse = Residuals(model, parameters, cut_windows(logs, model, coarse_settings))
+    coarse_residuals = Residuals(model, parameters, cut_windows(logs, model, coarse_settings))
     rows = np.linspace(0, len(windows) - 1, min(len(windows), MAX_START_WINDOWS)).round()
-    some = Residuals(model, parameters, coarse.windows.select(rows.astype(int).tolist()))
-    fine = Residuals(model, parameters, windows)
+    start_residuals = Residuals(
+        model, parameters, coarse_residuals.windows.select(rows.astype(int).tolist())
+    )
+    fine_residuals = Residuals(model, parameters, windows)
     counter = Counter(settings.n_pieces, on_progress)
-    starts, noise = _search(some, settings, counter)
-    best = min(starts, key=lambda solution: solution.cost)
-    n_same = sum(solution.cost <= (1.0 + SAME_COST) * best.cost for solution in starts)
-    solution, noise = _refine(fine, best.fit.values, noise, settings)
+    starts, noise = _search(start_residuals, settings, counter)
+    best_start = min(starts, key=lambda solution: solution.cost)
+    n_same = sum(solution.cost <= (1.0 + SAME_COST) * best_start.cost for solution in starts)
+    solution, noise = _refine(fine_residuals, best_start.fit.values, noise, settings)
     counter.count()
-    problem = linearise(fine, solution.fit, 1.0 / noise, settings.loss)
+    problem = linearise(fine_residuals, solution.fit, 1.0 / noise, settings.loss)
     uncertainty = compute_uncertainty(problem, parameters, solution.fit.values)
     counter.count()
-    first_errors = simulate_errors(fine, fine.start().values)
-    held_out = _validate(coarse, fine, solution.fit, noise, settings, counter)
+    first_errors = simulate_errors(fine_residuals, fine_residuals.start().values)
+    held_out = _validate(coarse_residuals, fine_residuals, solution.fit, noise, settings, counter)
     excitation = measure_excitation(windows, noise)
-    rows = fine.compute(solution.fit, 1.0 / noise)
+    rows = fine_residuals.compute(solution.fit, 1.0 / noise)
     return Identification(
         model=model,
         settings=settings,
@@ -231,8 +233,8 @@ def _refine(
 
 
 def _validate(
-    coarse: Residuals,
-    fine: Residuals,
+    coarse_residuals: Residuals,
+    fine_residuals: Residuals,
     fit: Fit,
     noise: Array,
     settings: IdentifySettings,
@@ -242,18 +244,24 @@ def _validate(
 
     Without folds, the coefficients are those of all windows.
     """
-    errors = simulate_errors(fine, fit.values)
-    if settings.n_folds < 2 or len(fine.windows) < 2:
+    errors = simulate_errors(fine_residuals, fit.values)
+    if settings.n_folds < 2 or len(fine_residuals.windows) < 2:
         return errors
-    n = len(coarse.windows)
+    n = len(coarse_residuals.windows)
     for fold in split_folds(n, settings.n_folds):
-        others = [i for i in range(n) if i not in set(fold)]
-        part = Residuals(fine.model, fine.parameters, coarse.windows.select(others))
-        start = Fit(values=fit.values, offsets=fit.offsets[others])
+        other_rows = [i for i in range(n) if i not in set(fold)]
+        part = Residuals(
+            fine_residuals.model,
+            fine_residuals.parameters,
+            coarse_residuals.windows.select(other_rows),
+        )
+        start = Fit(values=fit.values, offsets=fit.offsets[other_rows])
         solution = minimise(
             part, start, 1.0 / noise, loss=settings.loss, max_iterations=FOLD_ITERATIONS
         )
-        held_out = Residuals(fine.model, fine.parameters, fine.windows.select(fold))
+        held_out = Residuals(
+            fine_residuals.model, fine_residuals.parameters, fine_residuals.windows.select(fold)
+        )
         errors[fold] = simulate_errors(held_out, solution.fit.values)
         counter.count()
     return errors

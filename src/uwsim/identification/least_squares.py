@@ -57,7 +57,7 @@ class Solution:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Reduced:
+class ReducedProblem:
     """The linear problem of an iteration, in plausible errors of the coefficients."""
 
     triangles: Array
@@ -119,7 +119,9 @@ def minimise(
     return Solution(fit=fit, cost=cost, n_iterations=n_done)
 
 
-def linearise(residuals: Residuals, fit: Fit, weights: Array, loss: Loss = "linear") -> Reduced:
+def linearise(
+    residuals: Residuals, fit: Fit, weights: Array, loss: Loss = "linear"
+) -> ReducedProblem:
     """Return the linear problem at a fit, for its covariance."""
     rows = residuals.compute(fit, weights)
     slopes = residuals.differentiate(fit, weights) * plausible_errors(residuals)
@@ -132,7 +134,9 @@ def plausible_errors(residuals: Residuals) -> Array:
     return np.array([parameter.plausible_error for parameter in residuals.parameters])
 
 
-def reduce(rows: Array, slopes: Array, offset_slopes: Array, offsets: Array, loss: Loss) -> Reduced:
+def reduce(
+    rows: Array, slopes: Array, offset_slopes: Array, offsets: Array, loss: Loss
+) -> ReducedProblem:
     """Eliminate the initial states of all windows.
 
     Args:
@@ -144,13 +148,13 @@ def reduce(rows: Array, slopes: Array, offset_slopes: Array, offsets: Array, los
     """
     n, _, p = slopes.shape
     scale = np.sqrt(_loss_weights(rows, loss))[:, :, None]
-    known = np.zeros((n, N_CHANNELS, N_CHANNELS + p + 1))
-    known[:, :, :N_CHANNELS] = np.diag(1.0 / OFFSET_SCALES)
-    known[:, :, -1] = offsets / OFFSET_SCALES
+    prior_rows = np.zeros((n, N_CHANNELS, N_CHANNELS + p + 1))
+    prior_rows[:, :, :N_CHANNELS] = np.diag(1.0 / OFFSET_SCALES)
+    prior_rows[:, :, -1] = offsets / OFFSET_SCALES
     matrix = np.concatenate([offset_slopes, slopes, rows[:, :, None]], axis=2) * scale
-    triangle = compute_triangles(np.concatenate([matrix, known], axis=1))
+    triangle = compute_triangles(np.concatenate([matrix, prior_rows], axis=1))
     lower = triangle[:, N_CHANNELS:, N_CHANNELS:]
-    return Reduced(
+    return ReducedProblem(
         triangles=lower[:, :, :p], targets=lower[:, :, p], offset_rows=triangle[:, :N_CHANNELS]
     )
 
@@ -179,28 +183,30 @@ def _loss_weights(rows: Array, loss: Loss) -> Array:
     return np.minimum(1.0, HUBER_LIMIT / np.maximum(np.abs(rows), 1e-12))
 
 
-def _solve(problem: Reduced, residuals: Residuals, fit: Fit, errors: Array, box: float) -> Array:
+def _solve(
+    problem: ReducedProblem, residuals: Residuals, fit: Fit, errors: Array, box: float
+) -> Array:
     """Return the step of the coefficients within their bounds and a box, in plausible errors."""
     from scipy.optimize import lsq_linear
 
     p = len(errors)
     matrix = np.concatenate([problem.triangles.reshape(-1, p), np.eye(p)])
     target = np.concatenate([problem.targets.ravel(), _distance(residuals, fit.values)])
-    compact = compute_triangles(np.column_stack([matrix, target])[None])[0]
+    triangle = compute_triangles(np.column_stack([matrix, target])[None])[0]
     minimum = np.array([parameter.minimum for parameter in residuals.parameters])
     maximum = np.array([parameter.maximum for parameter in residuals.parameters])
     low = np.maximum((minimum - fit.values) / errors, -box)
     high = np.minimum((maximum - fit.values) / errors, box)
     result = lsq_linear(
-        compact[:, :p],
-        -compact[:, p],
+        triangle[:, :p],
+        -triangle[:, p],
         bounds=(np.minimum(low, 0.0) - 1e-12, np.maximum(high, 0.0) + 1e-12),
         method="bvls",
     )
     return np.asarray(result.x)
 
 
-def _offset_steps(problem: Reduced, step: Array) -> Array:
+def _offset_steps(problem: ReducedProblem, step: Array) -> Array:
     """Return the steps of the offsets that belong to a step of the coefficients, (windows, 12)."""
     rows = problem.offset_rows
     p = len(step)

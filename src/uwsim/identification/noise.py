@@ -48,8 +48,8 @@ def parse_noise(text: str) -> dict[str, float]:
 
 def first_noise(residuals: Residuals, settings: Mapping[str, float]) -> Array:
     """Return the noise of each channel before the first fit, (12,)."""
-    measured = residuals.windows.measured
-    rows = np.concatenate([measured[:, :, :3], 2.0 * measured[:, :, 4:7], measured[:, :, 7:]], 2)
+    samples = residuals.windows.samples
+    rows = np.concatenate([samples[:, :, :3], 2.0 * samples[:, :, 4:7], samples[:, :, 7:]], 2)
     differences = rows[:, 2:] - 2.0 * rows[:, 1:-1] + rows[:, :-2]
     squares = np.where(np.isfinite(differences), differences * differences, 0.0)
     n = np.maximum(np.isfinite(differences).sum(axis=(0, 1)), 1)

@@ -97,7 +97,7 @@ class Numbers:
     """The row of the water in W, (12,)."""
 
 
-def choose_parameters(free: Sequence[str], model: VehicleModel) -> tuple[Parameter, ...]:
+def choose_parameters(names: Sequence[str], model: VehicleModel) -> tuple[Parameter, ...]:
     """Return the coefficients with these names, each once.
 
     Raises:
@@ -106,15 +106,15 @@ def choose_parameters(free: Sequence[str], model: VehicleModel) -> tuple[Paramet
     """
     parameters: dict[str, Parameter] = {}
     errors = []
-    for text in free:
+    for text in names:
         try:
             for parameter in _expand(text.strip(), model):
                 parameters.setdefault(parameter.name, parameter)
         except BadSetting as error:
             errors.append(str(error))
-    names = set(parameters)
+    unique_names = set(parameters)
     for group in ("thrust", "time_constant"):
-        if group in names and any(name.startswith(f"{group}[") for name in names):
+        if group in unique_names and any(name.startswith(f"{group}[") for name in unique_names):
             errors.append(f"--free {group}: all thrusters and a single one; choose either.")
     if not errors and not parameters:
         errors.append("--free: no coefficient; expected groups such as added_mass,drag,thrust.")
@@ -188,15 +188,15 @@ def _expand(text: str, model: VehicleModel) -> list[Parameter]:
         if not model.thrusters:
             raise BadSetting(f"--free {text!r}: the vehicle {model.name!r} has no thruster.")
         return [make("")]
-    found = [make(name) for name in keys or ("",)]
+    parameters = [make(name) for name in keys or ("",)]
     if group in (*MATRICES, "inertia"):
-        found = [parameter for parameter in found if parameter.first_guess > 0.0]
-        if not found:
+        parameters = [parameter for parameter in parameters if parameter.first_guess > 0.0]
+        if not parameters:
             raise BadSetting(
                 f"--free {text!r}: all first guesses are 0; name the coefficients, such as "
                 f"{group}[surge]."
             )
-    return found
+    return parameters
 
 
 def _find_keys(

@@ -46,13 +46,13 @@ MAX_MISFIT = 1e6
 
 @njit
 def compare_motion(
-    path: Floats, measured: Floats, index: Ints64, fraction: Floats, weights: Floats, out: Floats
+    path: Floats, samples: Floats, index: Ints64, fraction: Floats, weights: Floats, out: Floats
 ) -> None:
     """Write the weighted residuals of all windows.
 
     Args:
         path: the simulated motion after each step, (windows, steps + 1, 13), as `free_step`.
-        measured: the measured motion, (windows, samples, 13); NaN where there is none.
+        samples: the measured motion, (windows, samples, 13); NaN where there is none.
         index: the step before each sample, (windows, samples).
         fraction: the fraction of a step from there to the sample, (windows, samples).
         weights: the inverse of the noise of each channel, (12,).
@@ -70,7 +70,7 @@ def compare_motion(
             scale = 1.0 / math.sqrt(size)
             w, x, y, z = scale * motion[3], scale * motion[4], scale * motion[5], scale * motion[6]
             _to_base_axes(w, x, y, z, motion)
-            target, first = measured[row, sample], N_CHANNELS * sample
+            target, first = samples[row, sample], N_CHANNELS * sample
             for i in range(3):
                 out[row, first + i] = target[i] - motion[i]
                 out[row, first + 6 + i] = target[7 + i] - motion[7 + i]
@@ -167,8 +167,8 @@ class Residuals:
                 step = -step
             values = fit.values.copy()
             values[k] += step
-            moved = self.compute(Fit(values=values, offsets=fit.offsets), weights)
-            slopes[:, :, k] = (moved - base) / step
+            moved_rows = self.compute(Fit(values=values, offsets=fit.offsets), weights)
+            slopes[:, :, k] = (moved_rows - base) / step
         return slopes
 
     def differentiate_offsets(self, fit: Fit, weights: Array) -> Array:
@@ -186,7 +186,9 @@ class Residuals:
         return slopes
 
     def _run(self, numbers: Numbers, actuators: Array, offsets: Array) -> Array:
-        states = np.concatenate([_make_states(self.windows.initial, offsets), actuators], axis=1)
+        states = np.concatenate(
+            [_make_states(self.windows.initial_motion, offsets), actuators], axis=1
+        )
         step = self.windows.settings.step
         simulate_rows(
             numbers.vehicle, states, self.windows.commands, numbers.water, step, self._path
@@ -195,7 +197,7 @@ class Residuals:
 
     def _compare(self, weights: Array) -> Array:
         windows, out = self.windows, np.empty(self.shape)
-        compare_motion(self._path, windows.measured, windows.index, windows.fraction, weights, out)
+        compare_motion(self._path, windows.samples, windows.index, windows.fraction, weights, out)
         return out
 
     def _actuator_states(self, numbers: Numbers) -> Array:
@@ -214,14 +216,14 @@ class Residuals:
         return states
 
 
-def _make_states(initial: Array, offsets: Array) -> Array:
+def _make_states(initial_motion: Array, offsets: Array) -> Array:
     """Return the motion of rows of `free_step` at the start of the windows, (windows, 13)."""
-    states = initial.copy()
+    states = initial_motion.copy()
     states[:, :3] += offsets[:, :3]
-    turns = np.ones((len(initial), 4))
+    turns = np.ones((len(initial_motion), 4))
     turns[:, 1:] = 0.5 * offsets[:, 3:6]
     turns /= np.sqrt((turns * turns).sum(axis=1, keepdims=True))
-    states[:, 3:7] = multiply_quaternions(initial[:, 3:7], turns)
-    states[:, 7:10] = rotate_vectors(states[:, 3:7], initial[:, 7:10] + offsets[:, 6:9])
+    states[:, 3:7] = multiply_quaternions(initial_motion[:, 3:7], turns)
+    states[:, 7:10] = rotate_vectors(states[:, 3:7], initial_motion[:, 7:10] + offsets[:, 6:9])
     states[:, 10:] += offsets[:, 9:]
     return states

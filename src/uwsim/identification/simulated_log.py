@@ -15,13 +15,14 @@ from ..base.geometry import Array
 from ..base.rng import stream
 from ..logs import CommandSeries, MotionSeries, VehicleLog
 from ..logs.frames import multiply_quaternions
+from ..logs.vehicle_log import CommandKind
 from ..physics.hydrodynamics import columns as c
 from ..scene.spec import SceneSpec
 from .parameters import AXES
 from .vehicle_model import VehicleModel, open_vehicle
 
 MAX_FIN_SHARE = 0.3
-"""The greatest angle of fins, as a share of their limits."""
+"""The max_share angle of fins, as a share of their limits."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,13 +30,13 @@ class LogNoise:
     """The standard deviations of the measured motion."""
 
     position: float = 0.005
-    """Of positions [m]."""
+    """The standard deviation of positions [m]."""
     attitude: float = 0.0035
-    """Of the attitude about each axis [rad]."""
+    """The standard deviation of the attitude about each axis [rad]."""
     velocity: float = 0.003
-    """Of the velocity over ground [m/s]."""
+    """The standard deviation of the velocity over ground [m/s]."""
     angular_velocity: float = 0.00175
-    """Of the angular velocity [rad/s]."""
+    """The standard deviation of the angular velocity [rad/s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +46,7 @@ class Excitation:
     duration: float = 120.0
     """The length [s]."""
     amplitudes: tuple[float, ...] = (0.4, 0.4, 0.35, 0.012, 0.012, 0.06)
-    """The greatest commands along surge, sway, heave, roll, pitch and yaw [1]."""
+    """The max_share commands along surge, sway, heave, roll, pitch and yaw [1]."""
     min_hold: float = 0.8
     """The shortest time for which a command holds [s]."""
     max_hold: float = 3.0
@@ -95,11 +96,15 @@ def simulate_log(
             simulation.advance()
     motion = _add_noise(samples, noise, seed)
     names = np.array(vehicle.actuators)
+    kinds: tuple[tuple[CommandKind, Array], ...] = (
+        ("thrusters", is_thruster),
+        ("fins", ~is_thruster),
+    )
     series = [
         CommandSeries(
             kind=kind, names=tuple(names[mask].tolist()), times=times, values=commands[:, mask]
         )
-        for kind, mask in (("thrusters", is_thruster), ("fins", ~is_thruster))
+        for kind, mask in kinds
         if mask.any()
     ]
     return VehicleLog(
@@ -139,7 +144,7 @@ def _mix_axes(vehicle: VehicleModel) -> Array:
     """Return the share of each axis in the command of each actuator, (actuators, 6).
 
     A thruster takes part in an axis by the sign of its force or moment, if that is at least a tenth
-    of the greatest one. Fins with a span along y turn for pitch, others for yaw.
+    of the max_share one. Fins with a span along y turn for pitch, others for yaw.
     """
     numbers = vehicle.numbers
     wrenches = np.zeros((len(numbers.actuators), 6))
@@ -148,8 +153,8 @@ def _mix_axes(vehicle: VehicleModel) -> Array:
         if row[c.ROLE] == c.PROPELLER:
             wrenches[i, :3] = axes[:, 0]
             wrenches[i, 3:] = np.cross(site[:3] - numbers.rigid_body[1:4], axes[:, 0])
-    greatest = np.abs(wrenches).max(axis=0, initial=1e-9)
-    shares = np.sign(wrenches) * (np.abs(wrenches) >= 0.1 * np.maximum(greatest, 1e-6))
+    max_share = np.abs(wrenches).max(axis=0, initial=1e-9)
+    shares: Array = np.sign(wrenches) * (np.abs(wrenches) >= 0.1 * np.maximum(max_share, 1e-6))
     for i, (row, site) in enumerate(zip(numbers.actuators, numbers.sites, strict=True)):
         if row[c.ROLE] == c.FIN:
             span = site[3:].reshape(3, 3)[:, 2]

@@ -18,13 +18,14 @@ of more than `MAX_ERROR` along it (singular values of the scaled derivatives).
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..base.geometry import Array
-from .least_squares import Reduced
+from .least_squares import ReducedProblem
 from .parameters import Parameter
 from .triangles import compute_triangles
 
@@ -44,17 +45,17 @@ class Estimate:
     parameter: Parameter
     """The coefficient."""
     value: float
-    """Its value."""
+    """The value."""
     standard_error: float
-    """Its standard error."""
+    """The standard error."""
     low: float
     """The lower end of its interval."""
     high: float
     """The upper end of its interval."""
     is_determined: bool
-    """The logs determine it: its error is well below that of a first guess."""
+    """The flag of a coefficient with an error well below that of a first guess."""
     is_at_bound: bool
-    """It is at its smallest or greatest value."""
+    """The flag of a value at its smallest or greatest value."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +65,7 @@ class WeakDirection:
     names: tuple[str, ...]
     """The coefficients that change along it."""
     changes: tuple[float, ...]
-    """Their relative changes, compared with the greatest one."""
+    """The relative changes, compared with the greatest one."""
     error: float
     """The error that the logs leave along it, in plausible errors; infinite: they say nothing."""
 
@@ -78,8 +79,8 @@ class WeakDirection:
                 else f"{self.names[0]} is not determined: the logs say nothing about it."
             )
         names = f"{', '.join(self.names[:-1])} and {self.names[-1]}"
-        alike = min(self.changes) > 0.0
-        relation = "only their ratios are" if alike else "only a combination of them is"
+        is_ratio = min(self.changes) > 0.0
+        relation = "only their ratios are" if is_ratio else "only a combination of them is"
         return (
             f"{names} are not determined together: {relation}. Fix one by a measurement of its own."
         )
@@ -100,7 +101,7 @@ class Uncertainty:
 
 
 def compute_uncertainty(
-    problem: Reduced, parameters: Sequence[Parameter], values: Array
+    problem: ReducedProblem, parameters: Sequence[Parameter], values: Array
 ) -> Uncertainty:
     """Compute intervals, correlations and weak directions.
 
@@ -160,26 +161,66 @@ def _make_estimate(parameter: Parameter, value: float, error: float, half_width:
 def _find_weak_directions(
     rows: Array, parameters: Sequence[Parameter], values: Array
 ) -> tuple[WeakDirection, ...]:
-    _, sizes, directions = np.linalg.svd(compute_triangles(rows[None])[0])
-    found = []
-    for size, direction in zip(sizes.tolist()[::-1], directions[::-1], strict=True):
-        if size * MAX_ERROR >= 1.0:
-            break
-        changes = np.array(
-            [
-                share * parameter.plausible_error / max(abs(value), 0.1 * parameter.plausible_error)
-                for share, parameter, value in zip(
-                    direction.tolist(), parameters, values.tolist(), strict=True
-                )
-            ]
-        )
-        changes = changes / changes[np.argmax(np.abs(changes))]
-        chosen = [i for i in range(len(changes)) if abs(changes[i]) >= MIN_SHARE]
-        found.append(
+    """Return a basis of the combinations that are not determined, of few coefficients each."""
+    triangle = compute_triangles(rows[None])[0]
+    _, sizes, directions = np.linalg.svd(triangle)
+    errors = np.array([parameter.plausible_error for parameter in parameters])
+    scales = errors / np.maximum(np.abs(values), 0.1 * errors)  # to relative changes
+    basis = simplify_basis(directions[sizes * MAX_ERROR < 1.0] * scales)
+    weak_directions = []
+    for changes in basis:
+        direction = changes / scales
+        answer = np.sqrt((np.einsum("ij,j->i", triangle, direction) ** 2).sum())
+        error = float(np.sqrt((direction * direction).sum()) / max(answer, 1e-300))
+        indices = [i for i in range(len(changes)) if abs(changes[i]) >= MIN_SHARE]
+        weak_directions.append(
             WeakDirection(
-                names=tuple(parameters[i].name for i in chosen),
-                changes=tuple(float(changes[i]) for i in chosen),
-                error=1.0 / size if size > 1e-9 else float("inf"),
+                names=tuple(parameters[i].name for i in indices),
+                changes=tuple(float(changes[i]) for i in indices),
+                error=error,
             )
         )
-    return tuple(found)
+    return tuple(weak_directions)
+
+
+def simplify_basis(vectors: Array) -> Array:
+    """Return vectors of the same span with many small elements, whose greatest element is 1.
+
+    A vector is replaced by its difference to a multiple of another as long as elements vanish.
+
+    Args:
+        vectors: linearly independent vectors, (k, p).
+    """
+    basis = _reduce_rows(vectors.copy())
+    is_simpler = True
+    while is_simpler:
+        is_simpler = False
+        for i, j in itertools.permutations(range(len(basis)), 2):
+            for column in np.flatnonzero(np.abs(basis[j]) >= MIN_SHARE).tolist():
+                candidate = basis[i] - basis[i, column] / basis[j, column] * basis[j]
+                candidate /= candidate[np.abs(candidate).argmax()]
+                if _count_elements(candidate) < _count_elements(basis[i]):
+                    basis[i], is_simpler = candidate, True
+    return basis
+
+
+def _count_elements(vector: Array) -> int:
+    return int((np.abs(vector) >= MIN_SHARE).sum())
+
+
+def _reduce_rows(basis: Array) -> Array:
+    """Return the reduced row echelon form by elimination with full pivoting."""
+    pivots: list[int] = []
+    for k in range(len(basis)):
+        part = np.abs(basis[k:])
+        part[:, pivots] = 0.0
+        row, column = divmod(int(part.argmax()), basis.shape[1])
+        basis[[k, k + row]] = basis[[k + row, k]]
+        basis[k] /= basis[k, column]
+        pivots.append(column)
+        for other in range(len(basis)):
+            if other != k:
+                basis[other] -= basis[other, column] * basis[k]
+    for vector in basis:
+        vector /= vector[np.abs(vector).argmax()]
+    return basis

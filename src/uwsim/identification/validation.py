@@ -34,14 +34,14 @@ class HorizonError:
     quantity: str
     """The quantity."""
     unit: str
-    """Its unit."""
+    """The unit."""
     horizon: float
     """The horizon [s]."""
     n_windows: int
     """The number of windows."""
-    before: float
+    first_error: float
     """The error with the first guess."""
-    after: float
+    fitted_error: float
     """The error with coefficients that were fitted to other windows."""
 
 
@@ -58,13 +58,15 @@ def simulate_errors(residuals: Residuals, values: Array) -> Array:
     return rows.reshape(len(rows), -1, N_CHANNELS)
 
 
-def compare_horizons(windows: Windows, before: Array, after: Array) -> tuple[HorizonError, ...]:
+def compare_horizons(
+    windows: Windows, first_errors: Array, fitted_errors: Array
+) -> tuple[HorizonError, ...]:
     """Return the errors at all horizons.
 
     Args:
         windows: the windows.
-        before: the errors with the first guess, (windows, samples, 12).
-        after: the errors with fitted coefficients, alike.
+        first_errors: the errors with the first guess, (windows, samples, 12).
+        fitted_errors: the errors with fitted coefficients, alike.
     """
     length = windows.settings.length
     horizons = sorted({min(horizon, length) for horizon in HORIZONS} | {length})
@@ -74,12 +76,15 @@ def compare_horizons(windows: Windows, before: Array, after: Array) -> tuple[Hor
         columns = _measured_columns(windows, channels)
         for horizon in horizons:
             rows, samples = _find_samples(windows, times, horizon)
-            pair = [_root_mean_square(part[rows, samples][:, columns]) for part in (before, after)]
+            pair = [
+                _root_mean_square(part[rows, samples][:, columns])
+                for part in (first_errors, fitted_errors)
+            ]
             if len(rows) and columns:
                 errors.append(
                     HorizonError(
                         quantity=name, unit=unit, horizon=horizon, n_windows=len(rows),
-                        before=pair[0], after=pair[1],
+                        first_error=pair[0], fitted_error=pair[1],
                     )
                 )  # fmt: skip
     return tuple(errors)
@@ -87,18 +92,18 @@ def compare_horizons(windows: Windows, before: Array, after: Array) -> tuple[Hor
 
 def _measured_columns(windows: Windows, channels: slice) -> list[int]:
     """Return the channels of a quantity that the logs have."""
-    motion = windows.measured
-    present = np.isfinite(motion).any(axis=(0, 1))
-    measured = [*present[:3], *([present[3]] * 3), *present[7:]]
-    return [i for i in range(channels.start, channels.stop) if measured[i]]
+    motion = windows.samples
+    has_column = np.asarray(np.isfinite(motion).any(axis=(0, 1))).tolist()
+    is_measured = [*has_column[:3], *([has_column[3]] * 3), *has_column[7:]]
+    return [i for i in range(channels.start, channels.stop) if is_measured[i]]
 
 
 def _find_samples(
     windows: Windows, times: Array, horizon: float
 ) -> tuple[Sequence[int], Sequence[int]]:
     """Return the windows that reach a horizon, and the sample of each nearest to it."""
-    present = np.isfinite(windows.measured).any(axis=2)
-    distance = np.where(present, np.abs(times - horizon), np.inf)
+    has_sample = np.isfinite(windows.samples).any(axis=2)
+    distance = np.where(has_sample, np.abs(times - horizon), np.inf)
     samples = distance.argmin(axis=1)
     limit = max(0.1 * horizon, windows.settings.step)
     rows = [i for i, sample in enumerate(samples) if distance[i, sample] <= limit]

@@ -54,9 +54,9 @@ class VehicleModel:
     link_mass: float
     """The mass of this link [kg]."""
     link_centre: tuple[float, ...]
-    """Its centre of mass, (3,) [m]."""
+    """The centre of mass of this link, (3,) [m]."""
     link_inertia: tuple[float, ...]
-    """Its moments of inertia about the centre of mass: xx yy zz xy xz yz [kg m2]."""
+    """The moments of inertia about the centre of mass: xx yy zz xy xz yz [kg m2]."""
     actuators: tuple[str, ...]
     """The names of thrusters and fins, in the order of `numbers`."""
     world_from_localized: Pose

@@ -28,7 +28,7 @@ N_MOTION = 13
 MIN_SAMPLES = 5
 """The smallest number of samples in a window."""
 MAX_WINDOWS = 400
-"""The greatest number of windows; of longer logs, windows are chosen evenly."""
+"""The greatest number of windows; of longer logs, windows are indices evenly."""
 MAX_STEPS = 20_000_000
 """The greatest number of steps of a log's time base."""
 
@@ -74,13 +74,13 @@ class Windows:
     """The time of the log at which each window begins, (windows,) [s]."""
     commands: Array
     """The commands of each step, (windows, steps, actuators)."""
-    measured: Array
+    samples: Array
     """The measured motion, (windows, samples, `N_MOTION`); NaN where there is none."""
     index: npt.NDArray[np.int64]
     """The step before each sample, (windows, samples)."""
     fraction: Array
     """The fraction of a step from there to the sample, (windows, samples)."""
-    initial: Array
+    initial_motion: Array
     """The initial motion by the first samples, (windows, `N_MOTION`)."""
     remarks: tuple[str, ...] = ()
     """The parts of the logs that are not used, and commands that are missing."""
@@ -90,16 +90,16 @@ class Windows:
 
     def select(self, rows: Sequence[int]) -> Windows:
         """Return some of the windows."""
-        chosen = np.array(rows, dtype=np.int64)
+        indices = np.array(rows, dtype=np.int64)
         grids = tuple(
-            LogGrid(commands=grid.commands, starts=self._starts(i)[np.isin(self._rows(i), chosen)])
+            LogGrid(commands=grid.commands, starts=self._starts(i)[np.isin(self._rows(i), indices)])
             for i, grid in enumerate(self.grids)
         )
         return Windows(
-            settings=self.settings, grids=grids, logs=self.logs[chosen], times=self.times[chosen],
-            commands=self.commands[chosen], measured=self.measured[chosen],
-            index=self.index[chosen], fraction=self.fraction[chosen],
-            initial=self.initial[chosen], remarks=self.remarks,
+            settings=self.settings, grids=grids, logs=self.logs[indices], times=self.times[indices],
+            commands=self.commands[indices], samples=self.samples[indices],
+            index=self.index[indices], fraction=self.fraction[indices],
+            initial_motion=self.initial_motion[indices], remarks=self.remarks,
         )  # fmt: skip
 
     def _rows(self, log: int) -> npt.NDArray[np.int64]:
@@ -174,8 +174,8 @@ def _cut_log(
 ) -> _Cut:
     assert log.motion is not None
     motion, names = log.motion, [name for part in log.commands for name in part.names]
-    if missing := [name for name in model.actuators if name not in names]:
-        remarks.append(f"{log.path}: no commands of {', '.join(missing)}, which count as 0.")
+    if missing_names := [name for name in model.actuators if name not in names]:
+        remarks.append(f"{log.path}: no commands of {', '.join(missing_names)}, which count as 0.")
     n_steps = settings.n_steps
     n_all = int(np.ceil(float(motion.times[-1]) / settings.step)) + n_steps + 1
     rows = _convert_motion(motion, model)
@@ -185,32 +185,37 @@ def _cut_log(
     first = int(np.floor(times[0] / settings.step))
     while first * settings.step < times[-1]:
         begin = first * settings.step
-        inside = np.flatnonzero((times >= begin - 1e-9) & (times <= begin + settings.length + 1e-9))
-        usable = inside[np.isfinite(rows[inside]).any(axis=1)]
-        if len(usable) >= MIN_SAMPLES and times[usable[0]] - begin <= 0.2 * settings.length:
+        sample_indices = np.flatnonzero(
+            (times >= begin - 1e-9) & (times <= begin + settings.length + 1e-9)
+        )
+        usable_indices = sample_indices[np.isfinite(rows[sample_indices]).any(axis=1)]
+        if (
+            len(usable_indices) >= MIN_SAMPLES
+            and times[usable_indices[0]] - begin <= 0.2 * settings.length
+        ):
             starts.append(first)
-            samples.append((np.maximum(times[usable] - begin, 0.0), rows[usable]))
+            samples.append((np.maximum(times[usable_indices] - begin, 0.0), rows[usable_indices]))
         elif first * settings.step + settings.length <= times[-1]:
             n_short += 1
         first += n_steps
     if n_short:
         remarks.append(f"{log.path}: {n_short} windows have too few samples and are not used.")
     if len(starts) > MAX_WINDOWS:
-        chosen = np.linspace(0, len(starts) - 1, MAX_WINDOWS).round().astype(int).tolist()
+        indices = np.linspace(0, len(starts) - 1, MAX_WINDOWS).round().astype(int).tolist()
         remarks.append(f"{log.path}: {MAX_WINDOWS} of {len(starts)} windows are used.")
-        starts, samples = [starts[i] for i in chosen], [samples[i] for i in chosen]
+        starts, samples = [starts[i] for i in indices], [samples[i] for i in indices]
     commands = _average_commands(log.commands, model.actuators, n_all, settings.step)
     return _Cut(commands=commands, starts=np.array(starts, dtype=np.int64), samples=samples)
 
 
 def _thin(times: Array, rate: float) -> npt.NDArray[np.int64]:
     """Return the indices of samples at most at a rate [Hz]."""
-    kept, last = [], -np.inf
+    indices, last_time = [], -np.inf
     for i, time in enumerate(times.tolist()):
-        if time - last >= (1.0 - 1e-6) / rate:
-            kept.append(i)
-            last = time
-    return np.array(kept, dtype=np.int64)
+        if time - last_time >= (1.0 - 1e-6) / rate:
+            indices.append(i)
+            last_time = time
+    return np.array(indices, dtype=np.int64)
 
 
 def _convert_motion(motion: MotionSeries, model: VehicleModel) -> Array:
@@ -240,8 +245,8 @@ def _average_commands(
         sums = np.zeros_like(values)  # the integral of each command up to its beginning
         sums[1:] = np.cumsum(values[:-1] * spans[:, None], axis=0)
         row = np.searchsorted(part.times, edges, side="right") - 1
-        held = np.maximum(row, 0)
-        integral = sums[held] + values[held] * (edges - part.times[held])[:, None]
+        held_rows = np.maximum(row, 0)
+        integral = sums[held_rows] + values[held_rows] * (edges - part.times[held_rows])[:, None]
         integral[row < 0] = 0.0
         means = np.diff(integral, axis=0) / step
         for k, name in enumerate(part.names):
@@ -253,20 +258,23 @@ def _average_commands(
 def _join(parts: Sequence[_Cut], settings: WindowSettings, remarks: Sequence[str]) -> Windows:
     n = sum(len(part.starts) for part in parts)
     n_samples = max(len(times) for part in parts for times, _ in part.samples)
-    measured = np.full((n, n_samples, N_MOTION), np.nan)
+    samples = np.full((n, n_samples, N_MOTION), np.nan)
     index, fraction = np.zeros((n, n_samples), dtype=np.int64), np.zeros((n, n_samples))
-    logs, starts, commands, initial = [], [], [], []
+    logs, starts, commands, initial_rows = [], [], [], []
     row = 0
     for number, part in enumerate(parts):
         for start, (times, rows) in zip(part.starts.tolist(), part.samples, strict=True):
             place = times / settings.step
-            before = np.minimum(place.astype(np.int64), settings.n_steps - 1)
-            measured[row, : len(times)] = rows
-            index[row, : len(times)], fraction[row, : len(times)] = before, place - before
+            previous_steps = np.minimum(place.astype(np.int64), settings.n_steps - 1)
+            samples[row, : len(times)] = rows
+            index[row, : len(times)], fraction[row, : len(times)] = (
+                previous_steps,
+                place - previous_steps,
+            )
             logs.append(number)
             starts.append(start * settings.step)
             commands.append(part.commands[start : start + settings.n_steps])
-            initial.append(guess_initial(times, rows))
+            initial_rows.append(guess_initial(times, rows))
             row += 1
     grids = tuple(LogGrid(commands=part.commands, starts=part.starts) for part in parts)
     return Windows(
@@ -275,10 +283,10 @@ def _join(parts: Sequence[_Cut], settings: WindowSettings, remarks: Sequence[str
         logs=np.array(logs, dtype=np.int64),
         times=np.array(starts),
         commands=np.array(commands),
-        measured=measured,
+        samples=samples,
         index=index,
         fraction=fraction,
-        initial=np.array(initial),
+        initial_motion=np.array(initial_rows),
         remarks=tuple(remarks),
     )
 

@@ -32,7 +32,7 @@ LogArguments = Annotated[
 class IdentifyInput:
     """The input of an identification."""
 
-    free: Annotated[
+    coefficients: Annotated[
         str,
         option(
             INPUT,
@@ -213,7 +213,7 @@ def make_settings(source: IdentifyInput, fit: FitOptions) -> IdentifySettings:
     if fit.loss not in losses:
         raise BadSetting(f"--loss {fit.loss!r}: expected linear or huber.")
     return IdentifySettings(
-        free=tuple(name for name in source.free.split(",") if name.strip()),
+        free_names=tuple(name for name in source.coefficients.split(",") if name.strip()),
         windows=WindowSettings(length=fit.window, step=fit.step, rate=fit.rate),
         n_starts=fit.starts,
         n_folds=fit.folds,

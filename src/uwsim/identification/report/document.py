@@ -28,7 +28,7 @@ def json_text(result: Identification) -> str:
             for log in result.logs
         ],
         "settings": {
-            "free": list(settings.free),
+            "free": list(settings.free_names),
             "window": settings.windows.length,
             "step": settings.windows.step,
             "rate": settings.windows.rate,
@@ -66,8 +66,8 @@ def json_text(result: Identification) -> str:
                 "unit": error.unit,
                 "horizon": error.horizon,
                 "windows": error.n_windows,
-                "before": round_number(error.before),
-                "after": round_number(error.after),
+                "before": round_number(error.first_error),
+                "after": round_number(error.fitted_error),
             }
             for error in result.horizons
         ],

@@ -66,7 +66,7 @@ def render(result: Identification, plots: Sequence[Path], file: str) -> str:
         ],
         plots=[(CAPTIONS[path.stem], data_url(path.read_bytes(), "png")) for path in plots],
         settings=[
-            ("free", ", ".join(settings.free)),
+            ("free", ", ".join(settings.free_names)),
             ("windows", f"{len(result.windows)} of {settings.windows.length:g} s"),
             ("step, samples", f"{settings.windows.step:g} s, at most {settings.windows.rate:g} Hz"),
             ("starts, folds", f"{settings.n_starts}, {settings.n_folds}"),
@@ -96,13 +96,13 @@ def _make_cards(result: Identification) -> list[dict[str, str]]:
             "note": "reach this minimum",
         },
     ]
-    longest = max((error.horizon for error in result.horizons), default=0.0)
+    last_horizon = max((error.horizon for error in result.horizons), default=0.0)
     for error in result.horizons:
-        if error.horizon == longest and error.quantity in ("position", "velocity"):
+        if error.horizon == last_horizon and error.quantity in ("position", "velocity"):
             cards.append(
                 {
-                    "label": f"{error.quantity} error, {longest:g} s",
-                    "value": f"{error.before:.2g} → {error.after:.2g} {error.unit}",
+                    "label": f"{error.quantity} error, {last_horizon:g} s",
+                    "value": f"{error.first_error:.2g} → {error.fitted_error:.2g} {error.unit}",
                     "note": "on held-out windows",
                 }
             )

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -15,7 +15,7 @@ from ..identify import Identification
 from ..parameters import AXES
 from ..validation import QUANTITIES
 
-BEFORE, AFTER = PALETTE[1], PALETTE[0]
+FIRST_COLOUR, FITTED_COLOUR = PALETTE[1], PALETTE[0]
 """The colours of the first guess and of identified coefficients."""
 N_BINS = 25
 """The number of points of a curve over the horizon."""
@@ -33,7 +33,7 @@ SCALES = {
 def draw_plots(result: Identification, directory: Path) -> list[Path]:
     """Draw the plots as PNG and PDF; return the paths of the PNGs."""
     figures = {"coefficients": _draw_coefficients(result), "horizon": _draw_horizon(result)}
-    if np.isfinite(result.windows.measured[:, :, 7:]).any():
+    if np.isfinite(result.windows.samples[:, :, 7:]).any():
         figures["window"] = _draw_window(result)
     if 2 <= len(result.parameters) <= MAX_CORRELATIONS:
         figures["correlations"] = _draw_correlations(result)
@@ -55,11 +55,11 @@ def _draw_coefficients(result: Identification) -> Figure:
             value, low, high = (
                 number / scale + shift for number in (estimate.value, estimate.low, estimate.high)
             )
-            colour = AFTER if estimate.is_determined else GREY
+            colour = FITTED_COLOUR if estimate.is_determined else GREY
             axes.plot([low, high], [row, row], color=colour, linewidth=2.0, solid_capstyle="butt")
             marker = "o" if estimate.is_determined else "x"
             axes.plot([value], [row], color=colour, marker=marker, markersize=4.5)
-        axes.axvline(1.0, color=BEFORE, linewidth=1.0, label="first guess")
+        axes.axvline(1.0, color=FIRST_COLOUR, linewidth=1.0, label="first guess")
         axes.set_yticks(range(len(estimates)), [_label(e.parameter.name) for e in estimates])
         axes.set_ylim(len(estimates) - 0.4, -0.6)
         axes.set_xlabel("identified / first guess, with 95 % interval")
@@ -76,17 +76,17 @@ def _draw_horizon(result: Identification) -> Figure:
     """Draw the error of held-out windows over the time since their start."""
     windows = result.windows
     times = (windows.index + windows.fraction) * windows.settings.step
-    present = np.isfinite(windows.measured).any(axis=2)
+    has_sample = np.asarray(np.isfinite(windows.samples).any(axis=2))
     edges = np.linspace(0.0, windows.settings.length, N_BINS + 1)
     with styled_figure((7.4, 4.2)) as figure:
         panels = figure.subplots(2, 2, sharex=True)
         for axes, (name, (_, channels)) in zip(panels.ravel(), QUANTITIES.items(), strict=True):
             factor, label = SCALES[name]
             for errors, colour, text in (
-                (result.first_errors, BEFORE, "first guess"),
-                (result.held_out_errors, AFTER, "identified, on held-out windows"),
+                (result.first_errors, FIRST_COLOUR, "first guess"),
+                (result.held_out_errors, FITTED_COLOUR, "identified, on held-out windows"),
             ):
-                curve = _average(errors[:, :, channels], times, present, edges)
+                curve = _average(errors[:, :, channels], times, has_sample, edges)
                 middle = 0.5 * (edges[:-1] + edges[1:])
                 axes.plot(middle, factor * curve, color=colour, label=text)
             axes.set_ylabel(label)
@@ -97,14 +97,14 @@ def _draw_horizon(result: Identification) -> Figure:
     return figure
 
 
-def _average(errors: Array, times: Array, present: Array, edges: Array) -> Array:
+def _average(errors: Array, times: Array, has_sample: npt.NDArray[np.bool_], edges: Array) -> Array:
     """Return the root mean square error in each interval of time, (bins,)."""
     squares = (errors * errors).sum(axis=2)
     curve = np.full(len(edges) - 1, np.nan)
     for k in range(len(curve)):
-        inside = present & (times >= edges[k]) & (times <= edges[k + 1])
-        if inside.any():
-            curve[k] = np.sqrt(squares[inside].mean())
+        is_inside = has_sample & (times >= edges[k]) & (times <= edges[k + 1])
+        if is_inside.any():
+            curve[k] = np.sqrt(squares[is_inside].mean())
     return curve
 
 
@@ -113,22 +113,22 @@ def _draw_window(result: Identification) -> Figure:
     windows = result.windows
     gain = (result.first_errors[:, :, 6:] ** 2 - result.held_out_errors[:, :, 6:] ** 2).sum((1, 2))
     row = int(np.argmax(gain))
-    measured = windows.measured[row, :, 7:]
-    used = np.isfinite(measured).any(axis=1)
+    velocities = windows.samples[row, :, 7:]
+    has_values = np.isfinite(velocities).any(axis=1)
     times = (windows.times[row] + (windows.index + windows.fraction)[row] * windows.settings.step)[
-        used
+        has_values
     ]
     with styled_figure((7.4, 4.4)) as figure:
         panels = figure.subplots(2, 3, sharex=True)
         for axis, axes in enumerate(panels.ravel()):
             factor = 1.0 if axis < 3 else 180.0 / np.pi
             unit = "m/s" if axis < 3 else "°/s"
-            values = factor * measured[used, axis]
-            before = values - factor * result.first_errors[row, used, 6 + axis]
-            after = values - factor * result.held_out_errors[row, used, 6 + axis]
+            values = factor * velocities[has_values, axis]
+            first_curve = values - factor * result.first_errors[row, has_values, 6 + axis]
+            fitted_curve = values - factor * result.held_out_errors[row, has_values, 6 + axis]
             axes.plot(times, values, color=INK, linestyle="", marker=".", label="measured")
-            axes.plot(times, before, color=BEFORE, label="first guess")
-            axes.plot(times, after, color=AFTER, label="identified")
+            axes.plot(times, first_curve, color=FIRST_COLOUR, label="first guess")
+            axes.plot(times, fitted_curve, color=FITTED_COLOUR, label="identified")
             axes.set_ylabel(f"{AXES[axis]}{' rate' if axis >= 3 else ''} [{unit}]")
         for axes in panels[1]:
             axes.set_xlabel("time of the log [s]")
@@ -158,7 +158,5 @@ def _draw_correlations(result: Identification) -> Figure:
 
 def _mark_strong(axes: Axes, correlations: Array) -> None:
     """Mark correlations above 0.9 with a dot."""
-    rows: Sequence[int]
-    columns: Sequence[int]
     rows, columns = np.nonzero(np.abs(correlations - np.eye(len(correlations))) > 0.9)
     axes.plot(columns, rows, color="white", linestyle="", marker=".", markersize=3)

@@ -18,7 +18,7 @@ HORIZON_HEADER = ("error", "unit", "horizon", "windows", "before", "after")
 
 def make_coefficient_rows(estimates: Sequence[Estimate]) -> list[Row]:
     """Return the rows of the coefficients."""
-    rows = []
+    rows: list[Row] = []
     for estimate in estimates:
         value, interval = format_interval(estimate)
         parameter = estimate.parameter
@@ -36,8 +36,8 @@ def make_horizon_rows(errors: Sequence[HorizonError]) -> list[Row]:
             error.unit,
             f"{error.horizon:g} s",
             str(error.n_windows),
-            f"{error.before:.3g}",
-            f"{error.after:.3g}",
+            f"{error.first_error:.3g}",
+            f"{error.fitted_error:.3g}",
         )
         for error in errors
     ]
