@@ -21,7 +21,7 @@ from uwsim.identification.hydrodynamics_file import MATRIX_FIELDS
 from uwsim.identification.parameters import apply_values, choose_parameters
 from uwsim.identification.simulated_log import Excitation, simulate_log
 
-FREE = ("added_mass", "drag", "thrust")
+NAMES = ("added_mass", "drag", "thrust")
 MAX_FACTOR = 2.0
 """The greatest ratio of a first guess and the truth."""
 CLOSE = 0.05
@@ -35,7 +35,7 @@ class Run:
     errors: np.ndarray
     """The relative errors, (p,)."""
     is_covered: np.ndarray
-    """True where the interval covers the truth, (p,)."""
+    """The flags of intervals that cover the truth, (p,)."""
     seconds: float
     """The time of the fit [s]."""
 
@@ -54,8 +54,8 @@ def run(vehicle: str, seed: int, duration: float) -> tuple[list[str], Run]:
     scene = make_scene(vehicle)
     truth = open_vehicle(scene)
     log = simulate_log(scene, seed=seed, excitation=Excitation(duration=duration))
-    true_values = {p.name: p.first_guess for p in choose_parameters(FREE, truth)}
-    settings = IdentifySettings(free_names=FREE, n_starts=1, n_folds=0, seed=seed)
+    true_values = {p.name: p.first_guess for p in choose_parameters(NAMES, truth)}
+    settings = IdentifySettings(free_names=NAMES, n_starts=1, n_folds=0, seed=seed)
     start = time.perf_counter()
     result = identify([log], spoil(truth, seed), settings)
     seconds = time.perf_counter() - start
@@ -84,15 +84,16 @@ def main() -> None:
             flush=True,
         )
     errors = np.array([row.errors for row in runs])
-    covered = np.array([row.is_covered for row in runs])
+    is_covered = np.array([row.is_covered for row in runs])
     print(f"{'coefficient':28} {'rms error':>9} {'worst':>7} {'covered':>8} {'met':>6}")
     for i, name in enumerate(names):
-        met = ((np.abs(errors[:, i]) <= CLOSE) | covered[:, i]).mean()
+        success_rate = ((np.abs(errors[:, i]) <= CLOSE) | is_covered[:, i]).mean()
         print(
             f"{name:28} {100 * np.sqrt((errors[:, i] ** 2).mean()):8.2f}% "
-            f"{100 * np.abs(errors[:, i]).max():6.2f}% {covered[:, i].mean():8.0%} {met:6.0%}"
+            f"{100 * np.abs(errors[:, i]).max():6.2f}% {is_covered[:, i].mean():8.0%} "
+            f"{success_rate:6.0%}"
         )
-    print(f"covered over all: {covered.mean():.1%} of {covered.size} intervals")
+    print(f"covered over all: {is_covered.mean():.1%} of {is_covered.size} intervals")
 
 
 if __name__ == "__main__":

@@ -102,6 +102,15 @@ COMMANDS: dict[str, Command] = {
             "uwsim gap dive.csv pool.xml --mapping dive.toml --horizons 1,5,20",
         ),
     ),
+    "identify": Command(
+        module="logs.identify",
+        function="identify",
+        summary="Fit a vehicle's coefficients to logs, with intervals.",
+        examples=(
+            "uwsim identify --example swim",
+            "uwsim identify dive.csv my_rov.xml --free added_mass,drag,thrust -o fit",
+        ),
+    ),
     "info": Command(
         module="info",
         function="info",
