@@ -54,6 +54,21 @@ def test_a_program_that_sleeps_makes_late_steps_and_the_recording_is_kept(
     assert plot.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
 
 
+def test_a_topic_that_is_expected_and_published_too_slowly_is_reported(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = write_scene(tmp_path, "")
+    options = ["--for", "1s", "--deadline", "45", "--json", "--hz", "--expect", "/dvl=40"]
+    status = main(["run", scene, "--strict", *options])  # the DVL has 10 Hz
+    report = json.loads(capsys.readouterr().out)["strict"]
+    topic = report["streams"][1]
+    assert status == 3
+    assert (topic["name"], topic["kind"], topic["rate"]) == ("/dvl", "input", 40.0)
+    assert topic["number"] == 10
+    assert topic["late"] >= 8
+    assert topic["missing"] >= 15
+
+
 class Hardware:
     """A program outside that answers each ping of a DVL with a command, and once pauses."""
 
@@ -146,6 +161,8 @@ def test_the_bytes_of_a_strict_run_are_those_of_a_free_run(tmp_path: Path) -> No
         (["--strict", "--latency", "a.pdf"], "expected a name that ends with .png"),
         (["--strict", "--deadline", "0"], "expected a time > 0"),
         (["--strict", "--speed", "0"], "--speed 0 is not"),
+        (["--expect", "/topic=20"], "--expect needs --strict"),
+        (["--strict", "--expect", "/topic"], "expected TOPIC=HZ with a rate"),
     ],
 )
 def test_options_that_contradict_each_other_are_errors(

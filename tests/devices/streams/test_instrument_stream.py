@@ -215,6 +215,7 @@ def test_without_connections_no_port_is_opened(tmp_path: Path) -> None:
         (instrument("PD4"), "<topic> is missing; expected the topic of a DVL"),
         (instrument("PSONLLD", "/dvl"), "expected none"),
         (instrument("PD4", "/dvl", more="<epoch>noon</epoch>"), "expected one such as 2026"),
+        (instrument("PD4", "/dvl", more="<address>upd:h:1</address>"), "its kind is 'upd'"),
         (instrument("PD4 " * 9, "/dvl"), "expected 1 to 8"),
     ],
 )

@@ -9,9 +9,9 @@ import pytest
 
 from uwsim.errors import MissingExtra, UwsimError
 from uwsim.simulation.connections import OpenConnections
-from uwsim.simulation.connections.connections import parse_address
 from uwsim.simulation.connections.serial_streams import PseudoTerminal
 from uwsim.world import TerminalStream
+from uwsim.world.addresses import parse_address
 
 
 def test_a_terminal_carries_all_bytes_unchanged_in_both_directions(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
@@ -12,6 +13,8 @@ from .help_texts import CONNECTIONS, OUTPUT, option
 
 MAX_DEADLINE_MS = 60_000.0
 """The greatest deadline [ms]."""
+MIN_EXPECTED_RATE, MAX_EXPECTED_RATE = 0.01, 1000.0
+"""The range of expected rates [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +40,16 @@ class StrictOptions:
             help="The time by which steps and messages may be late with --strict [10].",
         ),
     ] = None
+    expected_inputs: Annotated[
+        list[str] | None,
+        option(
+            CONNECTIONS,
+            "--expect",
+            metavar="TOPIC=HZ",
+            help="The rate at which messages of a topic are expected with --strict, such as "
+            "thruster commands of ROS; repeatable.",
+        ),
+    ] = None
     latency: Annotated[
         Path | None,
         option(
@@ -53,6 +66,24 @@ class StrictOptions:
         from ...middleware.strict.strict_clock import DEFAULT_DEADLINE
 
         return DEFAULT_DEADLINE if self.deadline is None else self.deadline / 1000.0
+
+    @property
+    def expected_rates(self) -> dict[str, float]:
+        """The expected rate of each topic [Hz]; raise BadSetting."""
+        rates = {}
+        for text in self.expected_inputs or ():
+            topic, _, number = text.rpartition("=")
+            try:
+                rate = float(number)
+            except ValueError:
+                rate = math.nan
+            if not topic or not MIN_EXPECTED_RATE <= rate <= MAX_EXPECTED_RATE:
+                raise BadSetting(
+                    f"--expect {text}: expected TOPIC=HZ with a rate from {MIN_EXPECTED_RATE:g} "
+                    f"to {MAX_EXPECTED_RATE:g} Hz."
+                )
+            rates[topic] = rate
+        return rates
 
     def apply(
         self, connections: ConnectionOptions, udp_address: str | None
@@ -81,6 +112,9 @@ class StrictOptions:
                     f"--deadline {self.deadline:g}: expected a time > 0 and at most "
                     f"{MAX_DEADLINE_MS:g} [ms]."
                 )
+        with errors.collect():
+            if self.expected_rates and not self.is_strict:
+                raise BadSetting("--expect needs --strict.")
         with errors.collect():
             if self.is_strict and connections.client:
                 raise BadSetting("--strict is in real time; --client waits for a program.")

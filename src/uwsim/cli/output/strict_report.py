@@ -6,6 +6,7 @@ import gc
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ...base.terminal import warn
@@ -48,7 +49,16 @@ def make_strict_clock(
         elif isinstance(device, ActuatorStream) and device.is_open:
             clock.watch_input(device.name, device.rate)
             device.observer = clock
+    for topic, rate in options.expected_rates.items():
+        clock.watch_input(topic, rate)
+        simulation.bus.subscribe(
+            topic, object, partial(_note_message, clock, topic), is_counted=False
+        )
     return clock
+
+
+def _note_message(clock: StrictClock, topic: str, _: object) -> None:
+    clock.note_command(topic, None)
 
 
 @contextmanager

@@ -10,7 +10,7 @@
 The formats ``sentence`` and ``binary`` are those of `uwsim.autopilots.instruments.commands`. All
 bytes that have arrived are read at the beginning of each step, and the newest valid command is
 applied. A run that receives commands is not repeatable. Bytes that are not a command are counted
-and have no other effect; of more than 4096 bytes in a step only the newest are read.
+and have no other effect; of more than 2048 bytes in a step only the newest are read.
 """
 
 from __future__ import annotations
@@ -29,19 +29,20 @@ from ...autopilots.instruments.commands import (
 from ...autopilots.instruments.framing import Frames, split_binary, split_lines
 from ...autopilots.instruments.utc import parse_epoch
 from ...base.record import Record
-from ...errors import BadMessage, SceneError
+from ...errors import BadMessage, SceneError, UwsimError
 from ...messages import Float64MultiArray
 from ...schema import diagnostic_at, element
 from ...vehicle import Autopilot
 from ...world import ByteStream, DeviceWorld, TerminalStream
+from ...world.addresses import parse_address
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .observer import StreamObserver
 
-MAX_BYTES = 4096
+MAX_BYTES = 2048
 """The number of bytes that are read in a step; of more, the newest."""
 MAX_MESSAGES = 32
 """The number of messages that are read in a step; of more, the newest."""
-MAX_PIECES = 64
+MAX_PIECES = 16
 """The number of datagrams or pieces that are received in a step; others wait."""
 
 
@@ -81,6 +82,10 @@ class ActuatorStreamSpec(DeviceSpec):
             epoch_us = parse_epoch(self.epoch)
         except BadMessage as error:
             problems.append(f"<epoch>: {error}")
+        try:
+            parse_address(self.address)
+        except UwsimError as error:
+            problems.append(f"<address>: {error}")
         if problems or autopilot is None:
             raise SceneError(
                 [diagnostic_at(self, f"<u:actuatorStream>: {text}") for text in problems]

@@ -31,10 +31,11 @@ import numpy as np
 
 from ...autopilots.instruments.utc import parse_epoch
 from ...base.record import Record
-from ...errors import BadMessage, SceneError, UnknownName
+from ...errors import BadMessage, SceneError, UnknownName, UwsimError
 from ...messages import UInt8MultiArray
 from ...schema import MAX_DISTANCE, diagnostic_at, element
 from ...world import ByteStream, DeviceWorld, TerminalStream
+from ...world.addresses import parse_address
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .formats import BEACON_FORMATS, FORMATS, Format, Sample
 from .measurements import Carrier, is_base_z_down
@@ -97,7 +98,7 @@ class InstrumentStreamSpec(DeviceSpec):
         return tuple(topics)
 
     def check(self) -> int:
-        """Check formats, topic and epoch.
+        """Check formats, topic, epoch and address.
 
         Returns:
             The time at the start of the simulation [us since 1970].
@@ -129,6 +130,10 @@ class InstrumentStreamSpec(DeviceSpec):
             epoch_us = parse_epoch(self.epoch)
         except BadMessage as error:
             problems.append(f"<epoch>: {error}")
+        try:
+            parse_address(self.address or "pty")
+        except UwsimError as error:
+            problems.append(f"<address>: {error}")
         if problems:
             raise SceneError(
                 [diagnostic_at(self, f"<u:instrumentStream>: {text}") for text in problems]
