@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -96,34 +96,29 @@ class Trial:
         return np.unwrap(np.arctan2(axes[:, 1], axes[:, 0]))
 
 
-def scene_at(port: int, settings: dict[str, str]) -> SceneSpec:
-    """Return the bundled scene with ArduPilot at a port."""
+def scene_at(port: int, mavlink_port: int) -> SceneSpec:
+    """Return the bundled scene with ArduPilot at a port, and MAVLink at another UDP port."""
     scene = read_scene(bundled_files("scenes")["bluerov2-scene"])
-    for name, value in {"ardupilot.port": str(port), **settings}.items():
+    address = f"udpin:127.0.0.1:{mavlink_port}"
+    for name, value in {"ardupilot.port": str(port), "mavlink.address": address}.items():
         scene = apply_setting(scene, f"vehicle[bluerov2].{name}", value)
     return scene
 
 
 def fly(
-    orders: list[Order],
-    duration: float,
-    *,
-    scene: Callable[[int, int], SceneSpec] | None = None,
-    parameters: dict[str, float] | None = None,
+    orders: list[Order], duration: float, *, parameters: dict[str, float] | None = None
 ) -> Trial:
-    """Run ArduSub with the orders of a pilot; return the record.
+    """Run ArduSub with the orders of a pilot in the bundled scene; return the record.
 
     Args:
         orders: the orders, by time.
         duration: the simulation time of the run [s].
-        scene: the function that returns the scene for ArduPilot's port and the UDP port to which
-            ArduSub sends MAVLink a second time; None: the bundled scene.
         parameters: the parameters of ArduSub besides `PARAMETERS`.
     """
     from pymavlink import mavutil
 
     port, pilot_port, device_port = (find_free_port() for _ in range(3))
-    spec = scene_at(port, {}) if scene is None else scene(port, device_port)
+    spec = scene_at(port, device_port)
     trial = Trial()
     pilot = mavutil.mavlink_connection(f"udpin:127.0.0.1:{pilot_port}", source_system=255)
     serial_ports = [f"udpclient:127.0.0.1:{number}" for number in (pilot_port, device_port)]

@@ -59,7 +59,10 @@ def replay(packets: Sequence[bytes]) -> list[bytes]:
                 answers.append(client.recv(65536))
 
     with open_scene(
-        scene_at(port, {}), timestep=1.0 / RATE, udp_address="127.0.0.1", is_blind=True
+        scene_at(port, find_free_port()),
+        timestep=1.0 / RATE,
+        udp_address="127.0.0.1",
+        is_blind=True,
     ) as simulation:
         thread = threading.Thread(target=send, daemon=True)
         thread.start()

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,10 +20,7 @@ from tests.support.real_ardusub import (
     Order,
     Trial,
     fly,
-    scene_at,
 )
-from uwsim.devices.mavlink import MavlinkSpec
-from uwsim.scene.spec import SceneSpec
 
 pytestmark = pytest.mark.skipif(
     VARIABLE not in os.environ, reason=f"{VARIABLE} is not the path of an ArduSub"
@@ -53,18 +49,9 @@ ORDERS = [
 ]
 
 
-def scene_with_dvl(port: int, mavlink_port: int) -> SceneSpec:
-    """Return the bundled scene with a DVL by MAVLink."""
-    scene = scene_at(port, {})
-    (vehicle,) = scene.vehicles
-    address = f"udpin:127.0.0.1:{mavlink_port}"
-    dvl = MavlinkSpec(name="navigation", address=address, dvl="/bluerov2/dvl")
-    return replace(scene, vehicles=(replace(vehicle, parts=(*vehicle.parts, dvl)),))
-
-
 @pytest.fixture(scope="module")
 def trial() -> Trial:
-    return fly(ORDERS, 145.0, scene=scene_with_dvl)
+    return fly(ORDERS, 145.0)
 
 
 def displacement(trial: Trial, start: float, end: float) -> np.ndarray:
