@@ -124,6 +124,7 @@ def test_velocities_and_positions_are_in_the_axes_of_the_autopilot(pair: Pair) -
     for _ in range(20):
         command(Float64MultiArray(layout=MultiArrayLayout(dim=[], data_offset=0), data=thrusts))
         pair.simulation.advance(0.1)
+    pair.simulation.advance()  # messages of the end of a step are sent in the next one
     velocity = pair.simulation.world.vehicles.find("bluerov2").velocity[:3]  # forward, right, down
     assert np.abs(velocity).max() > 0.05
     delta = pair.autopilot.find_messages("VISION_POSITION_DELTA")[-1]

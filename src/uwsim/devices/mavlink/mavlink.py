@@ -204,10 +204,16 @@ class MavlinkDevice(Device):
 
     def idle_until(self, time: float) -> float:
         """Return the time of the next look at what has arrived; never without a connection."""
+        if self._link.has_outbox:
+            return time
         return self.state.poll_time if self._link.is_open else math.inf
 
     def step(self, time: float) -> None:
         """Read what has arrived, and send heartbeats and sticks that are due."""
+        self._exchange(time)
+        self._link.flush()
+
+    def _exchange(self, time: float) -> None:
         state = self.state
         if not self._link.is_open or time < state.poll_time - 1e-9:
             return
