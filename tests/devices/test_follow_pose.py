@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import socket
 from dataclasses import replace
 from pathlib import Path
 
@@ -227,3 +228,21 @@ def test_mavlink_odometry_is_a_pose_and_nan_is_none() -> None:
 
 def test_an_old_attitude_is_not_joined() -> None:
     assert PoseReader().read([frames(attitude(0.0, 1000), local_position(1.0, 3000))]) == []
+
+
+def test_a_vehicle_follows_mavlink_datagrams_at_a_port(tmp_path: Path) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    scene = follower_scene(tmp_path, topic="", mavlink_port=port)
+    with (
+        open_scene(scene, udp_address="127.0.0.1") as simulation,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
+    ):
+        simulation.advance(0.01)
+        for data in (b"noise", frames(attitude(0.0)), frames(local_position(1.0))):
+            sender.sendto(data, ("127.0.0.1", port))
+        simulation.advance(0.01)
+        # north, east, down in W: x east, y north, z up
+        assert simulation.pose("rov", "W").position[[1, 2]] == pytest.approx([1.0, -3.0])
+        assert simulation.pose("rov", "W").position[0] == pytest.approx(2.0, abs=0.01)

@@ -20,8 +20,10 @@ from uwsim.benchmark.updaters.bag_fog_updater import BagFogUpdater, add_fog
 from uwsim.bus import Node
 from uwsim.cli import main
 from uwsim.errors import AssetError, AssetNotFound, BadSetting, RunFailed, UnknownName
-from uwsim.messages import CameraInfo, Float32MultiArray, Image, pixels_of, seconds
+from uwsim.messages import CameraInfo, Float32MultiArray, Image, image, pixels_of, seconds
 from uwsim.messages.bag_camera import RecordedFrame
+from uwsim.middleware.recording.mcap_file import McapFile
+from uwsim.middleware.types import wire_type
 from uwsim.rendering.water import Water, apply_water
 from uwsim.runs.planning.plan import Plan
 from uwsim.runs.trial.level_row import TrialEnd
@@ -433,3 +435,57 @@ def test_a_moving_target_in_recorded_images_is_scored(tmp_path: Path) -> None:
     assert measure.value == pytest.approx(np.mean(offsets), rel=1e-5)
     assert measure.details["u.max"] == pytest.approx(5.0, rel=1e-5)
     measure.close()
+
+
+def write_depth_bag(path: Path, pixels: np.ndarray, depth: np.ndarray, encoding: str) -> None:
+    """Record two images, each with a depth image and the info of a pinhole of fx = fy = 4 px."""
+    numbers = {"32FC1": depth.astype("<f4"), "16UC1": np.rint(1e3 * depth).astype("<u2")}[encoding]
+    file = McapFile(path)
+    for i, time in enumerate((0, 100_000_000)):
+        height, width = depth.shape
+        k = np.array([4.0, 0.0, 2.0, 0.0, 4.0, 1.5, 0.0, 0.0, 1.0])
+        step = width * numbers.itemsize
+        depth_message = Image(
+            height=height, width=width, encoding=encoding, step=step,
+            data=np.frombuffer(numbers.tobytes(), np.uint8).copy(),
+        )  # fmt: skip
+        messages = {
+            "/depth": depth_message, INFO: CameraInfo(height=height, width=width, k=k),
+            IMAGE: image(pixels + np.uint8(i), time=0.0),
+        }  # fmt: skip
+        for delay, (topic, message) in enumerate(messages.items()):
+            kind = wire_type(type(message))
+            assert kind is not None
+            file.write(topic, kind, time + delay, message)
+    file.close()
+
+
+@pytest.mark.parametrize("encoding", ["32FC1", "16UC1"])
+def test_fog_has_the_range_of_each_pixel_of_a_depth_image(tmp_path: Path, encoding: str) -> None:
+    depth = np.linspace(0.5, 6.0, 20).reshape(4, 5)
+    depth[2, 2] = 0.0  # not measured: at imageDepth
+    pixels = sample_pixels(0)
+    write_depth_bag(tmp_path / "dive.mcap", pixels, depth, encoding)
+    stage = world(timestep=0.05)
+    updater = spec(tmp_path, bag="dive.mcap", depth_topic="/depth", image_depth=DEPTH).bind(stage)
+    screen = Screen(stage)
+    updater.ramp(0.3)
+    stage.advance(1)
+    updater.close()
+    columns, rows = np.meshgrid(np.arange(5), np.arange(4))
+    ranges = depth * np.sqrt(1.0 + ((columns - 2.0) / 4.0) ** 2 + ((rows - 1.5) / 4.0) ** 2)
+    ranges[2, 2] = DEPTH
+    seen = np.exp(-((0.3 * ranges) ** 2))[..., None]
+    exact = pixels * seen + 255.0 * np.array(COLOUR) * (1.0 - seen)
+    assert np.abs(screen.pixels(0) - exact).max() <= (0.51 if encoding == "32FC1" else 0.7)
+
+
+def test_a_depth_image_of_another_size_ends_the_run(tmp_path: Path) -> None:
+    write_depth_bag(tmp_path / "dive.mcap", sample_pixels(0), np.ones((3, 5)), "32FC1")
+    stage = world(timestep=0.05)
+    updater = spec(tmp_path, bag="dive.mcap", depth_topic="/depth").bind(stage)
+    Screen(stage)
+    updater.ramp(0.3)
+    with pytest.raises(RunFailed, match=r"has 5x4 pixels, its depth image 5x3"):
+        stage.advance(1)
+    updater.close()
