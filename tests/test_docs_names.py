@@ -32,6 +32,7 @@ FILES_TO_WRITE = (
     "src/uwsim/messages/uwsim_msgs/msg/Heading.msg",
     "test_top_speed.py",
     "resonant.py",
+    "sim_vehicle.py",
 )
 """The files that a reader of a page writes."""
 
