@@ -17,16 +17,20 @@ from hypothesis import strategies as st
 from tests.support.fake_autopilot import FakeAutopilot
 from uwsim.algorithms import check_parameters
 from uwsim.algorithms.autopilot_missions import AutopilotPath, AutopilotStation, read_path
+from uwsim.algorithms.pilot import AXES, TOPIC, Pilot
 from uwsim.assets.bundled import bundled_files
 from uwsim.bus import Algorithm
 from uwsim.devices.ardupilot import ArduPilotSpec
 from uwsim.devices.mavlink import MavlinkSpec
 from uwsim.errors import BadSetting
-from uwsim.messages import Empty
+from uwsim.messages import Empty, Float64MultiArray, MultiArrayLayout
 from uwsim.model.scene_model import SceneModel
 from uwsim.physics.compile_scene import compile_scene
+from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
+from uwsim.viewer.live.mapping import PilotMapping
+from uwsim.viewer.live.pilot_targets import find_pilot_targets
 
 GUIDED, ALT_HOLD = 4, 2
 
@@ -166,3 +170,30 @@ def test_an_invalid_parameter_is_an_error(
 def test_a_path_has_a_limit() -> None:
     with pytest.raises(BadSetting, match="2 points or more"):
         read_path(" ".join(["1 2 3 4 5 6"] * 1000))
+
+
+def test_a_pilot_steers_the_vehicle_by_its_autopilot(
+    port: socket.socket, model: SceneModel
+) -> None:
+    with Simulation(model, is_blind=True) as simulation:
+        parameters = pilot_topics(simulation)
+        assert "autopilot" not in parameters  # nothing is connected
+        assert parameters["thrusters_topic"]
+    flight = Flight(port, model, Pilot(), {"autopilot": "/bluerov2/autopilot", "start": ""})
+    parameters = pilot_topics(flight.simulation)
+    assert parameters["autopilot"] == "/bluerov2/autopilot"
+    assert not {"twist_topic", "thrusters_topic"} & set(parameters)
+    targets = find_pilot_targets(flight.simulation.world, parameters)
+    keys = targets.keys(PilotMapping())
+    assert {keys[key] for key in "567890"} == {
+        *("+arm", "-arm", "+mode1", "+mode2", "+mode3", "+mode4")
+    }
+    assert targets.names["mode4"] == "POSHOLD"
+    values = np.zeros(len(AXES))
+    values[[AXES.index("surge"), AXES.index("arm"), AXES.index("mode4")]] = 1.0
+    layout = MultiArrayLayout(dim=[], data_offset=0)
+    flight.simulation.bus.publisher(TOPIC, Float64MultiArray)(Float64MultiArray(layout, values))
+    flight.simulation.advance(1.5)
+    assert (flight.autopilot.is_armed, flight.autopilot.mode) == (True, 16)
+    assert flight.autopilot.find_messages("MANUAL_CONTROL")[-1].x == 1000
+    flight.close()

@@ -9,7 +9,7 @@ import pytest
 
 from tests.algorithms.fake_node import FakeNode
 from uwsim.algorithms.pilot import AXES, N_THRUSTERS, PERIOD, TOPIC, Pilot
-from uwsim.messages import Float64MultiArray, MultiArrayLayout
+from uwsim.messages import Bool, Float64MultiArray, MultiArrayLayout, String
 
 LAYOUT = MultiArrayLayout(dim=[], data_offset=0)
 
@@ -136,3 +136,29 @@ def test_lamps_are_dimmed_from_full_brightness_while_their_axis_is_held() -> Non
     assert {topic for topic, _ in said[0]} == {"left/brightness", "right/brightness"}
     assert [message.data for _, message in move(node, lamps=0.25)] == pytest.approx([0.1, 0.1])  # type: ignore[attr-defined]
     assert move(node) == []
+
+
+def test_an_autopilot_gets_sticks_and_nothing_else_moves_the_vehicle() -> None:
+    node = flown(autopilot="rov/ap", twist_topic="/cmd", thrusters_topic="/t", n_thrusters=2.0)
+    ((topic, message),) = move(node, surge=0.5, heave=1.0, yaw=-0.25)
+    assert topic == "rov/ap/sticks"
+    assert isinstance(message, Float64MultiArray)
+    assert message.data.tolist() == [0.5, 0.0, 1.0, -0.25, 0.0, 0.0]
+
+
+def test_arming_and_modes_are_commanded_once_for_each_press() -> None:
+    node = flown(autopilot="rov/ap")
+    switches: list[tuple[str, object]] = []
+    for axes in ({"arm": 1.0}, {"arm": 1.0, "surge": 1.0}, {}, {"arm": -1.0}, {"mode3": 1.0}):
+        values = np.array([axes.get(axis, 0.0) for axis in AXES])
+        node.published.clear()
+        node.readers[TOPIC](Float64MultiArray(layout=LAYOUT, data=values))
+        switches += [entry for entry in node.published if entry[0] != "rov/ap/sticks"]
+    assert [topic for topic, _ in switches] == ["rov/ap/arm", "rov/ap/arm", "rov/ap/mode"]
+    contents = [message.data for _, message in switches if isinstance(message, Bool | String)]
+    assert contents == [True, False, "ALT_HOLD"]
+
+
+def test_without_an_autopilot_its_axes_have_no_effect() -> None:
+    node = flown(thrusters_topic="/t", n_thrusters=1.0)
+    assert commands(move(node, arm=1.0, mode1=1.0)) == [0.0]

@@ -9,15 +9,18 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..base.geometry import Array
 from ..bus import Node
 from ..errors import UnknownName
 from ..messages import (
+    Bool,
     Empty,
     Float64,
     Float64MultiArray,
     JointState,
     MultiArrayLayout,
     Odometry,
+    String,
     TwistStamped,
     header,
 )
@@ -37,16 +40,28 @@ Positive inputs move it forward, to starboard and up, and turn it with its starb
 bow up, and its bow to starboard."""
 THRUSTER_AXES = tuple(f"thruster{k}" for k in range(1, N_THRUSTERS + 1))
 """The input axes of single thrusters, in the order of the vehicle's hydrodynamics file."""
+MODE_AXES = {
+    "mode1": "MANUAL",
+    "mode2": "STABILIZE",
+    "mode3": "ALT_HOLD",
+    "mode4": "POSHOLD",
+}
+"""The input axes that change the flight mode of an autopilot, with its modes."""
+STICK_AXES = ("surge", "sway", "heave", "yaw", "pitch", "roll")
+"""The input axes that are the sticks of an autopilot, in the order of its topic."""
 AXES = (
     *TWIST_AXES,
     "jaw",
     *(f"joint{k}" for k in range(1, N_JOINTS + 1)),
     *THRUSTER_AXES,
     "lamps",
+    "arm",
+    *MODE_AXES,
 )
 """The input axes, in the order of the numbers in a message; new axes are appended.
 
-The groups are the twist, the jaw (positive opens it), the joints, the thrusters and the lamps."""
+The groups are the twist, the jaw (positive opens it), the joints, the thrusters, the lamps, and of
+an autopilot arming (negative: disarming) and modes."""
 PERIOD = 0.05
 """The time between two commands while no input changes [s]."""
 
@@ -58,9 +73,10 @@ class Pilot:
     limited rate. When an input changes, a command is published at once, which changes by at most
     the step of one `PERIOD`. Before the first input there are no commands. A vehicle may accept
     both twists and commands of single thrusters: the pilot publishes the kind whose axes were moved
-    last, and twists at first. All lamps have the same brightness, at first 1. Names of services,
-    topics and joints in a parameter are separated by blanks; by default the run reads them from the
-    scene.
+    last, and twists at first. If an autopilot steers the vehicle (``<u:mavlink>``), the axes of the
+    twist are its sticks, and no other commands of motion are published. All lamps have the same
+    brightness, at first 1. Names of services, topics and joints in a parameter are separated by
+    blanks; by default the run reads them from the scene.
     """
 
     IS_PILOTED: ClassVar[bool] = True
@@ -75,6 +91,7 @@ class Pilot:
         "thrusters_topic": "",
         "n_thrusters": 0.0,
         "lamp_topics": "",
+        "autopilot": "",
         "z_is_down": 1.0,
         "speed": 0.4,
         "turn": 0.3,
@@ -111,12 +128,20 @@ class Pilot:
         self._publish_lamps = [node.publisher(topic, Float64) for topic in lamps]
         self._brightness = 1.0
         self._uses_thrusters = bool(thrusters) and not twist and not odom
+        self._open_autopilot(str(self.parameters["autopilot"]))
         names = str(self.parameters["joints"]).split()[:N_JOINTS]
         jaw = str(self.parameters["jaw"]).split()
         self._joints = [(f"joint{k}", name) for k, name in enumerate(names, start=1)]
         self._joints += [("jaw", name) for name in jaw]
         node.subscribe(TOPIC, Float64MultiArray, self._on_input)
         node.create_timer(PERIOD, self._on_timer)
+
+    def _open_autopilot(self, name: str) -> None:
+        """Open the topics of a ``<u:mavlink>`` of a name; none if it is empty."""
+        publisher = self._node.publisher
+        self._publish_sticks = publisher(f"{name}/sticks", Float64MultiArray) if name else None
+        self._publish_arm = publisher(f"{name}/arm", Bool) if name else None
+        self._publish_mode = publisher(f"{name}/mode", String) if name else None
 
     def _on_input(self, message: Float64MultiArray) -> None:
         values = np.asarray(message.data, dtype=np.float64)
@@ -127,9 +152,23 @@ class Pilot:
         inputs = np.zeros(len(AXES))
         inputs[: len(values)] = np.where(np.abs(values) <= dead_zone, 0.0, values)
         is_changed = not self._has_input or not np.array_equal(inputs, self._inputs)
+        self._publish_switches(self._inputs, inputs)
         self._inputs, self._has_input = inputs, True
         if is_changed:
             self._publish_commands()
+
+    def _publish_switches(self, last_inputs: Array, inputs: Array) -> None:
+        """Publish arming and modes whose inputs begin to be at their ends."""
+        if self._publish_arm is None or self._publish_mode is None:
+            return
+        values = dict(
+            zip(AXES, np.where(abs(last_inputs) > 0.5, 0.0, inputs).tolist(), strict=True)
+        )
+        if abs(values["arm"]) > 0.5:
+            self._publish_arm(Bool(data=values["arm"] > 0.0))
+        for axis, mode in MODE_AXES.items():
+            if values[axis] > 0.5:
+                self._publish_mode(String(data=mode))
 
     def _on_timer(self) -> None:
         for service in str(self.parameters["start"]).split():
@@ -146,7 +185,11 @@ class Pilot:
         if change.any():
             self._commands, self._change_time = self._commands + change, now
         commands = dict(zip(AXES, self._commands.tolist(), strict=True))
-        if self._select_thrusters(commands):
+        if self._publish_sticks is not None:
+            sticks = np.array([commands[axis] for axis in STICK_AXES])
+            layout = MultiArrayLayout(dim=[], data_offset=0)
+            self._publish_sticks(Float64MultiArray(layout=layout, data=sticks))
+        elif self._select_thrusters(commands):
             self._publish_thrust(commands)
         else:
             self._publish_twist_command(commands)

@@ -18,7 +18,7 @@ from ..devices.ardupilot import ArduPilotLink
 from ..devices.px4 import Px4
 from ..errors import BadSetting, ErrorCollector, RunFailed
 from ..runs.foreign_code import announce_code, refuse_code
-from ..runs.planning.ardupilot_scene import connect_ardupilot, exchange_timestep
+from ..runs.planning.ardupilot_scene import connect_ardupilot, connect_mavlink, exchange_timestep
 from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
 from ..runs.planning.px4_scene import connect_px4
@@ -99,7 +99,7 @@ def run(
             refuse_code(spec)
     with errors.collect():
         if spec is not None and program_options.ardupilot:
-            spec = connect_ardupilot(spec)
+            spec = connect_mavlink(connect_ardupilot(spec))
     with errors.collect():
         if spec is not None and program_options.px4:
             if program_options.ardupilot:

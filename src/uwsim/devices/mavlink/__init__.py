@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from .mavlink import MavlinkSpec
+from .mavlink import MavlinkDevice, MavlinkSpec
 
-__all__ = ["MavlinkSpec"]
+__all__ = ["MavlinkDevice", "MavlinkSpec"]

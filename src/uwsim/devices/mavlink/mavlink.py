@@ -157,7 +157,11 @@ class MavlinkDevice(Device):
     def __init__(
         self, spec: MavlinkSpec, world: DeviceWorld, vehicle: DeviceVehicle, link: Link
     ) -> None:
-        self._spec, self._world, self._vehicle_name, self._link = spec, world, vehicle.name, link
+        self._spec, self._world, self._link = spec, world, link
+        self.name = spec.name
+        """The name of the device, with which its topics begin."""
+        self.vehicle_name = vehicle.name
+        """The name of the vehicle."""
         self._sensor = Identity(spec.system, SENSOR_COMPONENT)
         noise = PositionNoise(
             position=spec.position_std, attitude=spec.attitude_std, velocity=spec.velocity_std
@@ -189,6 +193,11 @@ class MavlinkDevice(Device):
         self._publish_mode = world.bus.publisher(f"{spec.name}/flight_mode", String)
         self._publish_text = world.bus.publisher(f"{spec.name}/status_text", String)
         self._publish_estimate = world.bus.publisher(f"{spec.name}/estimate", PoseStamped)
+
+    @property
+    def is_open(self) -> bool:
+        """True if the simulation has connections; the autopilot may still be absent."""
+        return self._link.is_open
 
     def _subscribe(self) -> None:
         """Subscribe to the sensors, unless nothing can be sent."""
@@ -319,6 +328,6 @@ class MavlinkDevice(Device):
         state = self.state
         state.n_notes += 1
         if state.n_notes < MAX_NOTES:
-            report(f"autopilot of {self._vehicle_name}: {text}")
+            report(f"autopilot of {self.vehicle_name}: {text}")
         elif state.n_notes == MAX_NOTES:
-            report(f"autopilot of {self._vehicle_name}: later texts are not shown")
+            report(f"autopilot of {self.vehicle_name}: later texts are not shown")

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import importlib.util
 from collections.abc import Iterator
 from dataclasses import replace
 
 from ...devices.ardupilot import ArduPilotSpec
+from ...devices.mavlink import MavlinkSpec
 from ...devices.px4 import Px4Spec
 from ...errors import BadSetting
 from ...scene.spec import SceneSpec
 from ...world import TIMESTEP
 from .px4_scene import remove_parts
 
+MAVLINK_PORT, PORTS_PER_INSTANCE = 5762, 10
+"""The TCP port of ArduPilot's second serial port, and the distance to that of the next instance."""
 ADDRESS = "127.0.0.1"
 """The address of this computer at which ArduPilot is expected by default."""
 
@@ -58,6 +62,25 @@ def connect_ardupilot(scene: SceneSpec, *, ends_on_restart: bool = False) -> Sce
                 f"{port}; expected an <instance> each."
             )
     return connected_scene
+
+
+def connect_mavlink(scene: SceneSpec) -> SceneSpec:
+    """Return a scene whose vehicles with ``<u:ardupilot>`` have a ``<u:mavlink>``, if they can.
+
+    One that is added is at the second serial port of the vehicle's ArduPilot, and has no sensors.
+    Without pymavlink, none is added.
+    """
+    if importlib.util.find_spec("pymavlink") is None:
+        return scene
+    vehicles = []
+    for vehicle in scene.vehicles:
+        autopilots = vehicle.parts_of(ArduPilotSpec)
+        if autopilots and not vehicle.parts_of(MavlinkSpec):
+            port = MAVLINK_PORT + PORTS_PER_INSTANCE * autopilots[0].instance
+            link = MavlinkSpec(name=f"{vehicle.name}/autopilot", address=f"tcp:{ADDRESS}:{port}")
+            vehicle = replace(vehicle, parts=(*vehicle.parts, link))
+        vehicles.append(vehicle)
+    return replace(scene, vehicles=tuple(vehicles))
 
 
 def ardupilot_specs(scene: SceneSpec) -> Iterator[ArduPilotSpec]:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from ...devices.lamp import LampSpec
+from ...devices.mavlink import MavlinkDevice
 from ...simulation import Simulation
 from ...topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from ...topics.ros_odom_to_pat import ROSOdomToPATSpec
 from ...topics.ros_twist_to_pat import ROSTwistToPATSpec
 from ...topics.thruster_commands import ROSThrustersToPATSpec
 
+STEERING_SPECS = (ROSTwistToPATSpec, ROSOdomToPATSpec, ROSThrustersToPATSpec)
+"""The elements by whose topics a vehicle is steered."""
 JAW_WORDS = ("jaw", "grip", "hand", "finger")
 """Words in the name of a joint that opens a gripper."""
 
@@ -25,8 +28,13 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
     index = _steered_index(simulation)
     name = world.vehicles.names[index]
     parameters: dict[str, float | str] = {}
+    autopilots = {device.vehicle_name: device.name for device in _open_autopilots(simulation)}
+    if name in autopilots:
+        parameters["autopilot"] = autopilots[name]
     for spec in world.model.scene.ros_interfaces:
         if getattr(spec, "vehicle_name", name) != name:
+            continue
+        if name in autopilots and isinstance(spec, STEERING_SPECS):
             continue
         if isinstance(spec, ROSTwistToPATSpec):
             parameters.setdefault("twist_topic", spec.topic)
@@ -48,12 +56,22 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
     return {**parameters, "joints": " ".join(joints), "jaw": jaw, "z_is_down": float(down > 0.0)}
 
 
+def _open_autopilots(simulation: Simulation) -> list[MavlinkDevice]:
+    """Return the connections to autopilots by MAVLink, if the simulation has connections."""
+    devices = simulation.world.devices
+    return [d for d in devices if isinstance(d, MavlinkDevice) and d.is_open]
+
+
 def _steered_index(simulation: Simulation) -> int:
-    """Return the index of the first vehicle with topics for twists, odometry or thrusters, or 0."""
+    """Return the index of the vehicle that a pilot steers, or 0.
+
+    It is the first with an autopilot that is connected, or else with topics for twists, odometry or
+    thrusters.
+    """
     world = simulation.world
-    names = {
+    names = {device.vehicle_name for device in _open_autopilots(simulation)} or {
         spec.vehicle_name
         for spec in world.model.scene.ros_interfaces
-        if isinstance(spec, ROSTwistToPATSpec | ROSOdomToPATSpec | ROSThrustersToPATSpec)
+        if isinstance(spec, STEERING_SPECS)
     }
     return next((i for i, name in enumerate(world.vehicles.names) if name in names), 0)

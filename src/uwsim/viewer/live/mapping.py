@@ -30,7 +30,8 @@ KEYS = {
     **{"w": "+surge", "s": "-surge", "d": "+sway", "a": "-sway", "e": "+yaw", "q": "-yaw"},
     **{"r": "+heave", "v": "-heave", "t": "+joint1", "g": "-joint1", "y": "+joint2"},
     **{"h": "-joint2", "u": "+joint3", "j": "-joint3", "i": "+joint4", "k": "-joint4"},
-    **{"o": "+jaw", "l": "-jaw", "m": "+lamps", "n": "-lamps"},
+    **{"o": "+jaw", "l": "-jaw", "m": "+lamps", "n": "-lamps", "5": "+arm", "6": "-arm"},
+    **{"7": "+mode1", "8": "+mode2", "9": "+mode3", "0": "+mode4"},
 }
 """The default targets of each key; the page's own functions of these letters require Shift, while a
 pilot is accepted."""

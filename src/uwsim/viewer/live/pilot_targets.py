@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...algorithms.pilot import N_JOINTS, THRUSTER_AXES, TWIST_AXES
+from ...algorithms.pilot import MODE_AXES, N_JOINTS, THRUSTER_AXES, TWIST_AXES
+from ...devices.mavlink import MavlinkSpec
 from ...simulation.live_scene import LiveScene
 from .mapping import PilotMapping
 
@@ -49,6 +50,10 @@ def find_pilot_targets(world: LiveScene, parameters: Mapping[str, float | str]) 
     topics = {settings[name] for name in STEERING_TOPICS if settings.get(name)}
     axes: set[str] = set()
     names: dict[str, str] = {}
+    autopilot = settings.get("autopilot", "")
+    if autopilot:
+        axes.update(TWIST_AXES, MODE_AXES, {"arm"})
+        names.update({"arm": "arm", **MODE_AXES})
     if settings.get("twist_topic") or settings.get("odom_topic"):
         axes.update(TWIST_AXES)
     if settings.get("thrusters_topic"):
@@ -63,7 +68,7 @@ def find_pilot_targets(world: LiveScene, parameters: Mapping[str, float | str]) 
     reason = ""
     if not world.vehicles:
         reason = "Nothing can be piloted: the scene has no vehicle."
-    elif not topics:
+    elif not topics and not autopilot:
         reason = (
             "No vehicle can be steered: the scene has no <ROSTwistToPAT> and no "
             "<u:ROSThrustersToPAT> in its <rosInterfaces>."
@@ -73,6 +78,11 @@ def find_pilot_targets(world: LiveScene, parameters: Mapping[str, float | str]) 
         for spec in world.model.scene.ros_interfaces
         if getattr(spec, "topic", None) in topics
         and (name := getattr(spec, "vehicle_name", None)) in world.vehicles.names
+    ]
+    vehicles += [
+        index
+        for index, spec in enumerate(world.model.scene.vehicles)
+        if any(part.name == autopilot for part in spec.parts_of(MavlinkSpec))
     ]
     vehicle = next(iter(vehicles), 0)
     if world.vehicles:
