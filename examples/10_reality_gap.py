@@ -29,9 +29,9 @@ def commands(simulation: uwsim.Simulation) -> np.ndarray:
     yaw = 0.12 * math.copysign(1.0, math.sin(0.23 * time + 0.5))
     heave = 0.8 * (2.0 - pose.position[2]) - 0.5 * w
     roll, pitch = -0.6 * down[1] - 0.2 * p, 0.6 * down[0] - 0.2 * q
-    horizontal = [surge - sway - yaw, surge + sway + yaw, surge + sway - yaw, surge - sway + yaw]
-    vertical = [heave + x * pitch + y * roll for x, y in ((-1, 1), (-1, -1), (1, 1), (1, -1))]
-    return np.clip(np.array([*horizontal, *vertical]), -0.8, 0.8)
+    thrusts_xy = [surge - sway - yaw, surge + sway + yaw, surge + sway - yaw, surge - sway + yaw]
+    thrusts_z = [heave + x * pitch + y * roll for x, y in ((-1, 1), (-1, -1), (1, 1), (1, -1))]
+    return np.clip(np.array([*thrusts_xy, *thrusts_z]), -0.8, 0.8)
 
 
 def record(path: Path) -> None:
