@@ -8,16 +8,18 @@ or an elevator; the fins of an X-tail are both.
 *Thrusters.* The approach has half of the greatest surge force, so that the rest can steer. The yaw
 moment at 35° of rudder is the greatest that the thrusters add to that force to either side.
 
-*Gains.* The loops of heading, pitch and depth are those of :math:`I \ddot\psi = k \delta` with the
+*Gains.* The loops of fins and of depth are those of :math:`I \ddot\psi = k \delta` with the
 frequency U / L and a damping ratio of 1, without the moments of the hull. The speed U is that at
-which the thrust equals the drag of the hull. They hold the vehicle in the approach; the numbers of
-a manoeuvre depend on them by the depth alone. Thrusters that can hold roll and pitch do so, with
-the Munk moment of the added mass in their stiffness.
+which the thrust equals the drag of the hull. Thrusters hold heading, roll and pitch with four times
+this frequency and with the Munk moment :math:`(A_{22} - A_{11}) U^2` in their stiffness. The loops
+hold the vehicle in the approach; the numbers of a manoeuvre depend on them by depth, roll and pitch
+alone.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -28,9 +30,11 @@ from ..physics.actuation.allocation import Allocation, allocate, thrusters_on_ba
 from ..scene.hydrodynamics import VehicleHydrodynamics
 from ..scene.hydrodynamics.spec import FinSpec, matrix
 
-SURGE, HEAVE, ROLL, PITCH, YAW = 0, 2, 3, 4, 5
-ATTITUDE_FACTOR = 4.0
-"""The frequency of the loops of thrusters that keep a vehicle level, in units of U / L [1]."""
+SURGE, SWAY, HEAVE, ROLL, PITCH, YAW = 0, 1, 2, 3, 4, 5
+STIFF_FACTOR = 4.0
+"""The frequency of the loops of thrusters for heading, roll and pitch, in units of U / L [1]."""
+INTEGRAL_SHARE = 0.2
+"""The integral gain of the heading, as a share of its proportional gain times U / L [1]."""
 HARD_OVER = 35.0
 """The rudder angle of a ship that is hard over, and that of a vehicle without rudder [deg]."""
 APPROACH_SHARE = 0.5
@@ -68,7 +72,6 @@ def compute_steering(model: SceneModel, length: float) -> dict[str, float | str]
     speed = steady_speed(surge_force, linear, quadratic)
     if not speed > 0.0:
         raise BadSetting(f"The hull of {dynamics.name!r} has no drag along surge.")
-    frequency = speed / length
     time_constant = mass[SURGE] / (linear + 2.0 * quadratic * speed)
     parameters: dict[str, float | str] = {
         "ahead": surge_force,
@@ -76,47 +79,71 @@ def compute_steering(model: SceneModel, length: float) -> dict[str, float | str]
         "approach": min(max(N_TIME_CONSTANTS * time_constant, 20.0), 300.0),
         "limit": HARD_OVER,
     }
+    hull = Hull(mass=mass, added_mass=added_mass, speed=speed, length=length)
     if has_rudders:
         pressure = 0.5 * dynamics.density * speed**2
-        yaw, pitch = (pressure * moment for moment in moments)
         parameters |= {
             "rudders": join_numbers(rudders),
             "elevators": join_numbers(elevators),
             "limit": math.degrees(limit),
-            "heading_kp": mass[YAW] * frequency**2 / yaw,
-            "heading_ki": 0.2 * mass[YAW] * frequency**3 / yaw,
-            "heading_kd": 2.0 * mass[YAW] * frequency / yaw,
+            **hull.gains("heading", YAW, pressure * moments[0]),
         }
-        if pitch > 0.0:
-            parameters |= {
-                "pitch_kp": mass[PITCH] * frequency**2 / pitch,
-                "pitch_kd": 2.0 * mass[PITCH] * frequency / pitch,
-                "pitch_per_depth": 0.2 / length,
-            }
+        if moments[1] > 0.0:
+            parameters |= hull.gains("pitch", PITCH, pressure * moments[1])
+            parameters["pitch_per_depth"] = 0.2 / length
     else:
-        moment = find_yaw_moment(allocation, surge_force)
-        per_radian = moment / math.radians(HARD_OVER)
-        parameters |= {
-            "yaw_moment": per_radian,
-            "heading_kp": mass[YAW] * frequency**2 / per_radian,
-            "heading_ki": 0.2 * mass[YAW] * frequency**3 / per_radian,
-            "heading_kd": 2.0 * mass[YAW] * frequency / per_radian,
-        }
-    for name, axis in (("roll", ROLL), ("trim", PITCH)):
-        if axis in allocation.axes and not any(elevators):
-            rate = ATTITUDE_FACTOR * frequency
-            munk = max(added_mass[HEAVE] - added_mass[SURGE], 0.0) * speed**2
-            parameters[f"{name}_kp"] = mass[axis] * rate**2 + munk
-            parameters[f"{name}_kd"] = 2.0 * mass[axis] * rate
-    if HEAVE in allocation.axes and not any(elevators):
-        parameters |= {
-            "heave_kp": mass[HEAVE] * frequency**2,
-            "heave_kd": 2.0 * mass[HEAVE] * frequency,
-        }
+        per_radian = find_yaw_moment(allocation, surge_force) / math.radians(HARD_OVER)
+        parameters["yaw_moment"] = per_radian
+        parameters |= hull.stiff_gains("heading", YAW, per_radian)
+    parameters["heading_ki"] = INTEGRAL_SHARE * speed / length * float(parameters["heading_kp"])
+    if not any(elevators):
+        for name, axis in (("roll", ROLL), ("trim", PITCH)):
+            if axis in allocation.axes:
+                parameters |= hull.stiff_gains(name, axis, 1.0)
+        if HEAVE in allocation.axes:
+            parameters |= hull.gains("heave", HEAVE, 1.0)
     topics: dict[str, float | str] = {"odometry_topic": "/odometry", "wrench_topic": "/wrench"}
     topics["fins_topic"] = "/fins" if dynamics.fins else ""
     numbers = {k: v if isinstance(v, str) else float(v) for k, v in parameters.items()}
     return {**topics, "yaw_moment": 0.0, **numbers}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Hull:
+    """The numbers of a hull that gains follow from."""
+
+    mass: Array
+    """The masses and inertias with added mass, (6,) [kg, kg m2]."""
+    added_mass: Array
+    """The added masses, (6,) [kg, kg m2]."""
+    speed: float
+    """The speed U [m/s]."""
+    length: float
+    """The length L [m]."""
+
+    def gains(self, name: str, axis: int, effect: float) -> dict[str, float]:
+        """Return gains with the frequency U / L and a damping ratio of 1.
+
+        Args:
+            name: the name of the loop.
+            axis: the index of the axis.
+            effect: the force or moment per command.
+        """
+        frequency = self.speed / self.length
+        return self._name_gains(name, axis, effect, self.mass[axis] * frequency**2)
+
+    def stiff_gains(self, name: str, axis: int, effect: float) -> dict[str, float]:
+        """Return gains with a multiple of U / L, and with the Munk moment in their stiffness."""
+        frequency = STIFF_FACTOR * self.speed / self.length
+        lateral_axis = SWAY if axis == YAW else HEAVE
+        munk = max(self.added_mass[lateral_axis] - self.added_mass[SURGE], 0.0) * self.speed**2
+        return self._name_gains(name, axis, effect, self.mass[axis] * frequency**2 + munk)
+
+    def _name_gains(
+        self, name: str, axis: int, effect: float, stiffness: float
+    ) -> dict[str, float]:
+        damping_constant = 2.0 * math.sqrt(stiffness * self.mass[axis])
+        return {f"{name}_kp": stiffness / effect, f"{name}_kd": damping_constant / effect}
 
 
 def compute_mass(model: SceneModel) -> Array:

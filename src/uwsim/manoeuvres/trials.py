@@ -47,7 +47,7 @@ HOLD_LENGTHS = 35.0
 """The time for which a spiral holds an angle, in L / U [1]."""
 MIN_HOLD = 15.0
 """The least time for which a spiral holds an angle [s]."""
-SPIRAL_SHARES = (1.0, 0.7, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05)
+SPIRAL_SHARES = (1.0, 0.6, 0.4, 0.3, 0.2, 0.15, 0.1, 0.05)
 """The rudder angles of a spiral to either side, as shares of hard over [1]."""
 RATE_SHARES = (0.9, 0.75, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 """The yaw rates of a reverse spiral to either side, as shares of that of the turning circle [1]."""

@@ -73,7 +73,7 @@ def measure_zigzag(track: ManoeuvreTrack, heading: float) -> ZigZag:
     first = int(np.flatnonzero(signs)[0]) if signs.any() else 0
     switches = first + 1 + np.flatnonzero(np.diff(signs[first:]))
     executions = [int(k) for k in switches]
-    ends = [*executions[1:], len(times)]
+    ends = [*executions[1:], len(times)] if executions else []
     overshoots = []
     for begin, end in zip(executions, ends, strict=True):
         side = float(signs[begin - 1])
