@@ -74,6 +74,6 @@ def draw_tank(tank: TankResults) -> Figure:
             axes.plot(record.times[is_shown], np.degrees(record.angles[is_shown]), color=PALETTE[0])
             axes.set_xlabel("time [s]")
             axes.set_ylabel(f"{AXES[record.axis]} [°]")
-            text = "no swing" if decay is None else f"natural period {decay.period:.2f} s"
-            axes.set_title(f"free decay: {text}", fontsize=9)
+            text = "no swing" if decay is None else f"T = {decay.period:.2f} s"
+            axes.set_title(f"free decay, {text}", fontsize=9)
     return figure
