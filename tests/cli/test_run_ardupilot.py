@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import signal
+import socket
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -46,9 +50,27 @@ def test_a_run_that_waits_in_vain_states_how_to_start_ardupilot(capsys: Captured
     assert "has sent nothing to UDP" in error
 
 
-def test_an_occupied_port_is_an_error(capsys: Captured) -> None:
-    import socket
+def test_ctrl_c_ends_a_run_that_waits() -> None:
+    setting = f"vehicle[bluerov2].ardupilot.port={free_port()}"
+    words = [
+        sys.executable,
+        "-m",
+        "uwsim",
+        "run",
+        "bluerov2-scene",
+        "--ardupilot",
+        "--set",
+        setting,
+    ]
+    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr is not None
+        lines = iter(process.stderr.readline, "")
+        assert any("waiting for ArduPilot" in line for line in lines)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(timeout=20.0) == 130
 
+
+def test_an_occupied_port_is_an_error(capsys: Captured) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
         other.bind(("127.0.0.1", 0))
         port = other.getsockname()[1]
