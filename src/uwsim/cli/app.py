@@ -65,7 +65,7 @@ COMMANDS: dict[str, Command] = {
     "check": Command(
         module="check",
         function="check",
-        summary="Find every error of scene and benchmark files, with line numbers.",
+        summary="Find all errors of scene and benchmark files, with line numbers.",
         examples=("uwsim check my-scene.xml my-benchmark.xml",),
     ),
     "compare": Command(
@@ -167,7 +167,7 @@ COMMANDS: dict[str, Command] = {
     "run": Command(
         module="run",
         function="run",
-        summary="Run a scene for a time: topics, rates, a recording, your program.",
+        summary="Run a scene for a time: topics, rates, recording, your program.",
         examples=(
             "uwsim run cirs --for 10s --hz",
             "uwsim run my-scene.xml --program my_controller.py --for 1min --record dive.mcap",

@@ -30,7 +30,12 @@ class ManoeuvreOptions:
 
     vehicle: Annotated[
         str | None,
-        option(INPUT, "--vehicle", metavar="NAME", help="Vehicle with <u:dynamics>; the first."),
+        option(
+            INPUT,
+            "--vehicle",
+            metavar="NAME",
+            help="Vehicle with <u:dynamics>; the first by default.",
+        ),
     ] = None
     length: Annotated[
         float | None,
@@ -38,7 +43,7 @@ class ManoeuvreOptions:
             INPUT,
             "--length",
             metavar="L",
-            help="Length of the vehicle [m]; that of its hull's <size>.",
+            help="Length of the vehicle [m]; that of its hull by default.",
             min=0.01,
             max=1000.0,
         ),
