@@ -132,7 +132,7 @@ def write_log(
 ) -> Path:
     """Write the log of a run as CSV, with the names of uwsim's columns."""
     rng = np.random.default_rng(seed)
-    h = 0.002
+    h = 0.005
     state = np.zeros(21)
     state[2], state[3] = 20.0, 1.0
     commands = np.zeros(8)
