@@ -306,6 +306,15 @@ def test_invalid_bytes_are_counted_and_reported_rarely(
     assert 1 <= n_lines <= 3
 
 
+def test_a_text_that_repeats_is_printed_once(
+    pair: Pair, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for _ in range(10):
+        pair.autopilot.send_text(6, "yaw alignment complete")
+        pair.simulation.advance(0.2)
+    assert capsys.readouterr().err.count("yaw alignment complete") == 1
+
+
 def test_a_flood_of_texts_does_not_flood_the_terminal(
     pair: Pair, capsys: pytest.CaptureFixture[str]
 ) -> None:

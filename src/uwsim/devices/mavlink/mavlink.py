@@ -58,6 +58,8 @@ LOST_TIME = 5.0
 """The age of the last heartbeat at which the autopilot counts as silent [s]."""
 MAX_NOTES = 200
 """The greatest number of lines on the terminal; later texts are only published."""
+N_LAST_NOTES = 8
+"""The number of lines on the terminal that are not repeated."""
 LOCAL_POSITION_NUMBER, ATTITUDE_NUMBER = 32, 30
 """The numbers of LOCAL_POSITION_NED and ATTITUDE."""
 
@@ -145,6 +147,8 @@ class MavlinkState(Record):
     """The roll that the autopilot estimates [rad]."""
     pitch: float = 0.0
     """The pitch that the autopilot estimates [rad]."""
+    last_notes: tuple[str, ...] = ()
+    """The last different lines on the terminal, the newest last."""
     n_notes: int = 0
     """The number of lines on the terminal so far."""
     n_invalid_bytes: int = 0
@@ -324,8 +328,14 @@ class MavlinkDevice(Device):
             self._note(f"{n_bytes} bytes at {self._spec.address} are no MAVLink; they are skipped")
 
     def _note(self, text: str) -> None:
-        """Print a line with the name of the vehicle; no more than `MAX_NOTES`."""
+        """Print a line with the name of the vehicle; no more than `MAX_NOTES`.
+
+        ArduPilot repeats some texts every second: a line that is one of the last is not printed.
+        """
         state = self.state
+        if text in state.last_notes:
+            return
+        state.last_notes = (*state.last_notes, text)[-N_LAST_NOTES:]
         state.n_notes += 1
         if state.n_notes < MAX_NOTES:
             report(f"autopilot of {self.vehicle_name}: {text}")
