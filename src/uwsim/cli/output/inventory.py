@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...devices import DEVICES
+from ...devices.ardupilot import ArduPilotSpec
 from ...devices.lamp import LampSpec
 from ...devices.sway import SwaySpec
 from ...errors import Diagnostic
@@ -109,7 +110,9 @@ def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
 
 def _motion(scene: SceneSpec, spec: VehicleSpec) -> str:
     if spec.dynamics is not None:
-        return f"simulated in water ({spec.dynamics})"
+        ports = [str(part.udp_port) for part in spec.parts_of(ArduPilotSpec)]
+        autopilot = f"; ArduPilot at UDP port {', '.join(ports)} with --ardupilot" if ports else ""
+        return f"simulated in water ({spec.dynamics}){autopilot}"
     if spec.parts_of(SwaySpec):
         return "sways, kinematically"
     if spec.tf is not None:
