@@ -80,14 +80,17 @@ class FollowPoseSpec(DeviceSpec):
         """The topic of the poses."""
         return (DeviceTopic(name=self.topic, is_subscribed=True),) if self.topic else ()
 
+    def describe_source_error(self) -> str | None:
+        """Return the error of a missing or ambiguous source of poses; None if there is one."""
+        if bool(self.topic) is not (self.mavlink_port is not None):
+            return None
+        content = "a topic and a port" if self.topic else "neither a topic nor a port"
+        return f"<u:followPose> has {content}; expected <u:topic> or <u:mavlinkPort>"
+
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> PoseFollower:
         """Subscribe to the topic, or open the port; raise BadSetting if there is neither."""
-        if bool(self.topic) == (self.mavlink_port is not None):
-            raise BadSetting(
-                "<u:followPose> has "
-                + ("a topic and a port" if self.topic else "neither a topic nor a port")
-                + "; expected <u:topic> or <u:mavlinkPort>."
-            )
+        if (error := self.describe_source_error()) is not None:
+            raise BadSetting(f"{error}.")
         assert isinstance(vehicle, PrescribedVehicle)
         follower = PoseFollower(self, vehicle, world)
         if self.topic and self.type == "odometry":
