@@ -10,7 +10,7 @@ from ...analysis.templates import data_url, template
 from ...version import __version__
 from ..experiment import Experiment
 from ..trials import TrialResults
-from .tables import NumberTable, format_angle, format_number
+from .tables import MISSING_VALUE, NumberTable, format_angle, format_number
 
 CAPTIONS = {
     "turning-circle": "Tracks of the turning circles from above, in lengths of the vehicle. "
@@ -42,7 +42,6 @@ def render(
         plots: the paths of the plots, with the names of `CAPTIONS`.
         source: the name of the scene.
     """
-    n_met = sum(criterion.is_met for criterion in trials.criteria)
     limit = float(experiment.parameters["limit"])
     return template("manoeuvres.html.j2").render(
         title=experiment.vehicle,
@@ -52,38 +51,41 @@ def render(
         limit=f"{limit:.1f}",
         moment=f"{float(experiment.parameters['yaw_moment']) * math.radians(limit):.3g}",
         ahead=f"{float(experiment.parameters['ahead']):.3g}",
-        cards=[
-            {
-                "label": "tactical diameter",
-                "value": format_number(
-                    trials.turns[0].tactical_diameter, experiment.length, 2
-                ) + " L",
-                "note": "to starboard, rudder hard over",
-            },
-            {
-                "label": "first overshoot 10/10",
-                "value": format_angle(
-                    trials.zigzags[0].overshoots[0].angle if trials.zigzags[0].overshoots else None
-                ) + "°",
-                "note": "of a zig-zag",
-            },
-            {
-                "label": "loop of the spiral",
-                "value": format_angle(trials.spiral.loop_width) + "°",
-                "note": f"± {math.degrees(trials.spiral.resolution):.2f}°; 0: stable on its course",
-            },
-            {
-                "label": "track reach",
-                "value": format_number(trials.stop.track_reach, experiment.length, 2) + " L",
-                "note": "crash stop",
-            },
-            {
-                "label": "criteria of ships",
-                "value": f"{n_met} of {len(trials.criteria)} met",
-                "note": "IMO MSC.137(76)",
-            },
-        ],
+        cards=make_cards(trials, experiment.length),
         tables=tables,
         plots=[(CAPTIONS[path.stem], data_url(path.read_bytes(), "png")) for path in plots],
         version=__version__,
-    )  # fmt: skip
+    )
+
+
+def make_cards(trials: TrialResults, length: float) -> list[dict[str, str]]:
+    """Return the cards at the top of the page: label, value and note of each."""
+    overshoots = trials.zigzags[0].overshoots
+    first_overshoot = overshoots[0].angle if overshoots else None
+    resolution = math.degrees(trials.spiral.resolution)
+    n_met = sum(criterion.is_met for criterion in trials.criteria)
+    rows = (
+        (
+            "tactical diameter",
+            add_unit(format_number(trials.turns[0].tactical_diameter, length, 2), " L"),
+            "to starboard, rudder hard over",
+        ),
+        ("first overshoot 10/10", add_unit(format_angle(first_overshoot), "°"), "of a zig-zag"),
+        (
+            "loop of the spiral",
+            add_unit(format_angle(trials.spiral.loop_width), "°"),
+            f"± {resolution:.2f}°; 0: stable on its course",
+        ),
+        (
+            "track reach",
+            add_unit(format_number(trials.stop.track_reach, length, 2), " L"),
+            "crash stop",
+        ),
+        ("criteria of ships", f"{n_met} of {len(trials.criteria)} met", "IMO MSC.137(76)"),
+    )
+    return [{"label": label, "value": value, "note": note} for label, value, note in rows]
+
+
+def add_unit(text: str, unit: str) -> str:
+    """Return a number with its unit; a value that was not reached has none."""
+    return text if text == MISSING_VALUE else text + unit

@@ -106,12 +106,14 @@ def zigzag_table(zigzags: Sequence[ZigZag], length: float) -> NumberTable:
 def course_table(trials: TrialResults) -> NumberTable:
     """Return the table of spiral and pull-out: whether the vehicle holds its course."""
     spiral, out = trials.spiral, trials.pull_out
-    accuracy = f" ± {math.degrees(spiral.resolution):.2f}"
+    width = format_angle(spiral.loop_width)
+    if spiral.loop_width is not None:
+        width += f" ± {math.degrees(spiral.resolution):.2f}"
     return NumberTable(
         title="Course stability: spiral and pull-out",
         columns=("", "value"),
         rows=(
-            ("width of the loop, direct spiral [°]", format_angle(spiral.loop_width) + accuracy),
+            ("width of the loop, direct spiral [°]", width),
             ("width of the loop, reverse spiral [°]", format_angle(spiral.reverse_width)),
             ("height of the loop [°/s]", format_angle(spiral.loop_height)),
             ("neutral rudder angle [°]", format_angle(spiral.neutral_angle)),
@@ -196,7 +198,7 @@ def decay_table(tank: TankResults) -> NumberTable:
                 "no swing" if decay is None else f"{decay.period:.3f}",
                 "" if expected is None else f"{expected:.3f}",
                 "" if decay is None else f"{decay.damping_ratio(amplitude):.3f}",
-                "" if decay is None else f"{decay.linear:.3g}",
+                "" if decay is None else format_damping(decay.linear, decay.quadratic),
                 "" if decay is None else f"{decay.quadratic:.3g}",
             )
         )
@@ -216,7 +218,7 @@ def format_number(value: float | None, divisor: float, digits: int) -> str:
 
 
 def format_damping(linear: float, quadratic: float) -> str:
-    """Return a linear damping as text; 0 if it is less than a thousandth of the quadratic one."""
+    """Return a linear damping as text, 0 if it is less than a thousandth of the quadratic one."""
     return "0" if linear < 1e-3 * quadratic else f"{linear:.4g}"
 
 
