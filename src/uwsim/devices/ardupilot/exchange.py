@@ -37,8 +37,10 @@ MAX_DRAINED = 64
 """The greatest number of waiting packets that one answer covers."""
 CHECK_PERIOD = 64
 """The number of answers after which datagrams of other senders are counted."""
-MAX_OTHERS = 1000
-"""The greatest number of other datagrams that are counted at once."""
+MAX_COUNTED = 64
+"""The greatest number of other datagrams that are counted at once, one for each exchange."""
+MAX_SEARCHED = 1000
+"""The greatest number of other datagrams among which a new start is searched at once."""
 
 
 @dataclass(slots=True)
@@ -191,14 +193,14 @@ class Exchange:
         """Return a packet of another sender than the silent one; None if there is none."""
         packets = [
             (data, sender)
-            for data, sender in self._port.receive_others(MAX_OTHERS)
+            for data, sender in self._port.receive_others(MAX_SEARCHED)
             if sender != self._port.peer and read_servo_packet(data) is not None
         ]
         return packets[-1] if packets else None
 
     def _count_others(self) -> None:
         peer = self._port.peer
-        datagrams = self._port.receive_others(MAX_OTHERS)
+        datagrams = self._port.receive_others(MAX_COUNTED)
         self.state.n_others += sum(sender != peer for _, sender in datagrams)
 
     def _report_wait(self, silence: float) -> bool:
