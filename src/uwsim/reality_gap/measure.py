@@ -18,6 +18,7 @@ from ..physics.compile_scene import compile_scene
 from ..scene.spec import SceneSpec
 from ..simulation import Simulation
 from .attribution import Attribution, attribute_residual
+from .autopilot_motors import name_motors
 from .coefficients import Coefficient, list_coefficients, scale_coefficient
 from .errors import HorizonError, choose_main_horizon, summarize_horizon
 from .gap import Gap
@@ -92,6 +93,7 @@ class _Measurement:
         self._index = find_vehicle(self._model, vehicle)
         self._name = self._model.scene.vehicles[self._index].name
         _check_frame(log, self._model)
+        self._log = name_motors(log, self._model.scene.vehicles[self._index])
 
     def run(self) -> Gap:
         """Measure the gap."""

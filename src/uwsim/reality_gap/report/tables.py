@@ -45,7 +45,7 @@ def horizon_row(error: HorizonError) -> tuple[str, str, str, str, str]:
     share = "–" if error.share is None else f"{100.0 * error.share:.2g} %"
     return (
         f"{error.horizon:g} s",
-        f"{error.n_windows} ({error.n_blocks:.3g} apart)",
+        f"{error.n_windows} ({error.n_blocks:.3g} independent)",
         f"{format_estimate(error.distance)} m",
         f"{format_number(error.path_length)} m",
         share,
