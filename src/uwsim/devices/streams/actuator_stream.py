@@ -29,13 +29,13 @@ from ...autopilots.instruments.commands import (
 from ...autopilots.instruments.framing import Frames, split_binary, split_lines
 from ...autopilots.instruments.utc import parse_epoch
 from ...base.record import Record
-from ...errors import BadMessage, SceneError, UwsimError
+from ...errors import BadMessage
 from ...messages import Float64MultiArray
-from ...schema import diagnostic_at, element
+from ...schema import element
 from ...vehicle import Autopilot
 from ...world import ByteStream, DeviceWorld, TerminalStream
-from ...world.addresses import parse_address
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
+from .endpoint import describe_endpoint_errors, raise_stream_errors
 from .observer import StreamObserver
 
 MAX_BYTES = 2048
@@ -72,24 +72,18 @@ class ActuatorStreamSpec(DeviceSpec):
         """The topic of applied commands."""
         return (DeviceTopic(name=self.topic),) if self.topic else ()
 
+    def errors(self) -> list[str]:
+        """Return the errors of epoch and address."""
+        return describe_endpoint_errors(self.epoch, self.address)
+
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ActuatorStream:
         """Open the stream; raise SceneError if the vehicle has no thrusters."""
-        problems, epoch_us = [], 0
-        autopilot = vehicle.autopilot
+        errors, autopilot = self.errors(), vehicle.autopilot
         if autopilot is None or not vehicle.thrusters:
-            problems.append(f"{vehicle.name} has no thrusters; expected a vehicle with u:dynamics")
-        try:
-            epoch_us = parse_epoch(self.epoch)
-        except BadMessage as error:
-            problems.append(f"<epoch>: {error}")
-        try:
-            parse_address(self.address)
-        except UwsimError as error:
-            problems.append(f"<address>: {error}")
-        if problems or autopilot is None:
-            raise SceneError(
-                [diagnostic_at(self, f"<u:actuatorStream>: {text}") for text in problems]
-            )
+            errors.append(f"{vehicle.name} has no thrusters; expected a vehicle with u:dynamics")
+        raise_stream_errors(self, "u:actuatorStream", errors)
+        assert autopilot is not None
+        epoch_us = parse_epoch(self.epoch)
         connection = None
         if world.connections is not None:
             connection = world.connections.open(self.address)

@@ -1,4 +1,4 @@
-"""A sensor as a real instrument sends it: bytes on a serial line or in the network.
+"""A sensor that sends the bytes of a real instrument on a serial line or in the network.
 
 .. code-block:: xml
 
@@ -31,12 +31,12 @@ import numpy as np
 
 from ...autopilots.instruments.utc import parse_epoch
 from ...base.record import Record
-from ...errors import BadMessage, SceneError, UnknownName, UwsimError
+from ...errors import UnknownName
 from ...messages import UInt8MultiArray
-from ...schema import MAX_DISTANCE, diagnostic_at, element
+from ...schema import MAX_DISTANCE, element
 from ...world import ByteStream, DeviceWorld, TerminalStream
-from ...world.addresses import parse_address
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
+from .endpoint import describe_endpoint_errors, raise_stream_errors
 from .formats import BEACON_FORMATS, FORMATS, Format, Sample
 from .measurements import Carrier, is_base_z_down
 from .observer import StreamObserver
@@ -97,18 +97,10 @@ class InstrumentStreamSpec(DeviceSpec):
             topics.append(DeviceTopic(name=self.bytes_topic))
         return tuple(topics)
 
-    def check(self) -> int:
-        """Check formats, topic, epoch and address.
-
-        Returns:
-            The time at the start of the simulation [us since 1970].
-
-        Raises:
-            SceneError: one of them is invalid; the error has all problems.
-        """
-        names, problems = self.formats, []
-        known_names = (*FORMATS, *BEACON_FORMATS)
-        problems += [
+    def errors(self) -> list[str]:
+        """Return the errors of formats, topic, epoch and address."""
+        names, known_names = self.formats, (*FORMATS, *BEACON_FORMATS)
+        errors = [
             str(UnknownName("format", name, known_names))
             for name in names
             if name not in known_names
@@ -116,38 +108,25 @@ class InstrumentStreamSpec(DeviceSpec):
         types = {FORMATS[name].message_type.__name__ for name in names if name in FORMATS}
         has_beacon = any(name in BEACON_FORMATS for name in names)
         if not 1 <= len(names) <= MAX_FORMATS:
-            problems.append(f"<format> has {len(names)} names; expected 1 to {MAX_FORMATS}")
+            errors.append(f"<format> has {len(names)} names; expected 1 to {MAX_FORMATS}")
         if len(types) + has_beacon > 1:
-            problems.append(
+            errors.append(
                 f"<format> {self.format!r} needs several sensors; expected formats of one sensor"
             )
         if types and not self.topic:
-            problems.append(f"<topic> is missing; expected the topic of a {min(types)}")
+            errors.append(f"<topic> is missing; expected the topic of a {min(types)}")
         if has_beacon and self.topic:
-            problems.append(f"<topic> {self.topic!r} is not used by {self.format}; expected none")
-        epoch_us = 0
-        try:
-            epoch_us = parse_epoch(self.epoch)
-        except BadMessage as error:
-            problems.append(f"<epoch>: {error}")
-        try:
-            parse_address(self.address or "pty")
-        except UwsimError as error:
-            problems.append(f"<address>: {error}")
-        if problems:
-            raise SceneError(
-                [diagnostic_at(self, f"<u:instrumentStream>: {text}") for text in problems]
-            )
-        return epoch_us
+            errors.append(f"<topic> {self.topic!r} is not used by {self.format}; expected none")
+        return errors + describe_endpoint_errors(self.epoch, self.address or "pty")
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> InstrumentStream:
         """Open the stream and subscribe to the topic; raise SceneError."""
-        epoch_us = self.check()
+        raise_stream_errors(self, "u:instrumentStream", self.errors())
         carrier = Carrier(
             vehicle=vehicle,
             origin=world.ned_origin,
             world_from_localized=world.world_from_localized,
-            epoch_us=epoch_us,
+            epoch_us=parse_epoch(self.epoch),
             beam_angle=math.radians(self.beam_angle),
             is_z_down=is_base_z_down(vehicle),
         )
