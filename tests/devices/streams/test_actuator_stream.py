@@ -11,10 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.devices.streams.stream_scenes import open_streams
+from tests.devices.streams.stream_scenes import instrument, open_streams
 from tests.support.opened import open_scene
 from uwsim.autopilots.instruments.commands import ThrusterCommands
+from uwsim.autopilots.instruments.utc import parse_epoch
 from uwsim.devices.streams.actuator_stream import ActuatorStream
+from uwsim.devices.streams.instrument_stream import InstrumentStream
 from uwsim.errors import SceneError
 from uwsim.messages import Float64MultiArray
 from uwsim.scene.reader import read_scene
@@ -169,3 +171,58 @@ def test_a_vehicle_without_thrusters_is_an_error_with_its_line(tmp_path: Path) -
     )
     with pytest.raises(SceneError, match=r"scene.xml:3: .*rov has no thrusters"):
         open_scene(read_scene(path))
+
+
+class Notes:
+    """An observer that keeps what it is told."""
+
+    def __init__(self) -> None:
+        self.notes: list[tuple[object, ...]] = []
+
+    def note_sent(self, name: str, time: float, due_time: float) -> None:
+        self.notes.append((name, time, due_time))
+
+    def note_unsent(self, name: str) -> None:
+        self.notes.append((name,))
+
+    def note_command(self, name: str, stamp: float | None) -> None:
+        self.notes.append((name, stamp))
+
+
+@pytest.mark.parametrize("format", ["sentence", "binary"])
+def test_an_observer_learns_which_measurement_a_command_answers(
+    tmp_path: Path, format: str
+) -> None:
+    port = free_port()
+    text = actuator(f"udpin:127.0.0.1:{port}", format=format)
+    answer = ThrusterCommands(
+        values=(0.1,) * 8, time_us=parse_epoch("2026-01-01T00:00:00Z") + 250_000
+    )
+    with open_streams(tmp_path, text, udp_address="127.0.0.1") as simulation:
+        observer = Notes()
+        stream_of(simulation).observer = observer
+        sender = Sender(port)
+        for command in (answer, ThrusterCommands(values=(0.1,) * 8)):
+            data = command.to_binary() if format == "binary" else command.to_sentence().to_bytes()
+            sender.send(data)
+        simulation.advance(0.1)
+        sender.close()
+    assert observer.notes == [("thrusters", 0.25), ("thrusters", None)]
+
+
+def test_an_observer_learns_when_a_message_leaves_a_slow_line(tmp_path: Path) -> None:
+    port = free_port()
+    more = f"<bitRate>9600</bitRate> <address>udpout:127.0.0.1:{port}</address>"
+    stream = instrument("PD4", "/dvl", name="dvl_line", more=more)
+    with (
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver,
+        open_streams(tmp_path, stream, udp_address="127.0.0.1") as simulation,
+    ):
+        receiver.bind(("127.0.0.1", port))
+        observer = Notes()
+        device = next(d for d in simulation.world.devices if isinstance(d, InstrumentStream))
+        device.observer = observer
+        simulation.advance(0.18)
+    (first, second) = observer.notes
+    assert first == ("dvl_line", 0.0, pytest.approx(47 * 10 / 9600))
+    assert second == ("dvl_line", 0.1, pytest.approx(0.1 + 47 * 10 / 9600))
