@@ -146,6 +146,15 @@ def test_an_autopilot_gets_sticks_and_nothing_else_moves_the_vehicle() -> None:
     assert message.data.tolist() == [0.5, 0.0, 1.0, -0.25, 0.0, 0.0]
 
 
+def test_the_sticks_of_an_autopilot_rest_before_the_first_input() -> None:
+    node = flown(autopilot="rov/ap")
+    wait(node)
+    ((topic, message),) = node.published
+    assert topic == "rov/ap/sticks"
+    assert isinstance(message, Float64MultiArray)
+    assert not message.data.any()
+
+
 def test_arming_and_modes_are_commanded_once_for_each_press() -> None:
     node = flown(autopilot="rov/ap")
     switches: list[tuple[str, object]] = []

@@ -47,6 +47,8 @@ MODE_AXES = {
     "mode4": "POSHOLD",
 }
 """The input axes that change the flight mode of an autopilot, with its modes."""
+SWITCH_AXES = ("arm", *MODE_AXES)
+"""The input axes of which only the begin of an input counts."""
 STICK_AXES = ("surge", "sway", "heave", "yaw", "pitch", "roll")
 """The input axes that are the sticks of an autopilot, in the order of its topic."""
 AXES = (
@@ -74,7 +76,8 @@ class Pilot:
     the step of one `PERIOD`. Before the first input there are no commands. A vehicle may accept
     both twists and commands of single thrusters: the pilot publishes the kind whose axes were moved
     last, and twists at first. If an autopilot steers the vehicle (``<u:mavlink>``), the axes of the
-    twist are its sticks, and no other commands of motion are published. All lamps have the same
+    twist are its sticks, at rest before the first input, and no other commands of motion are
+    published. All lamps have the same
     brightness, at first 1. Names of services, topics and joints in a parameter are separated by
     blanks; by default the run reads them from the scene.
     """
@@ -174,7 +177,7 @@ class Pilot:
         for service in str(self.parameters["start"]).split():
             with suppress(UnknownName):  # the benchmark does not wait for it now
                 self._node.call(service, Empty())
-        if self._has_input:
+        if self._has_input or self._publish_sticks is not None:
             self._publish_commands()
 
     def _publish_commands(self) -> None:

@@ -53,7 +53,7 @@ def find_pilot_targets(world: LiveScene, parameters: Mapping[str, float | str]) 
     autopilot = settings.get("autopilot", "")
     if autopilot:
         axes.update(TWIST_AXES, MODE_AXES, {"arm"})
-        names.update({"arm": "arm", **MODE_AXES})
+        names.update({"arm": "arm / disarm", **MODE_AXES})
     if settings.get("twist_topic") or settings.get("odom_topic"):
         axes.update(TWIST_AXES)
     if settings.get("thrusters_topic"):

@@ -139,7 +139,7 @@ class LiveSession:
 
     def pilot(self) -> Sequence[float] | None:
         """Return the sum of all pilots' inputs; None before the first input."""
-        return self._requests.inputs
+        return self._requests.take_inputs()
 
     def close(self) -> None:
         """End the view, before the simulation is closed."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import Flag, auto
 
-from ...algorithms.pilot import AXES
+from ...algorithms.pilot import AXES, SWITCH_AXES
 from ...base.external_values import read_number
 from .clock import Clock
 from .mapping import PilotMapping, sum_inputs
@@ -40,11 +40,18 @@ class ViewerRequests:
         self._views: dict[int, Message] = {}  # newest request for a view, by viewer
         self._widths: dict[int, int] = {}  # requested widths of images, by viewer [px]
         self._inputs: dict[int, tuple[float, ...]] = {}  # values of the pilot's axes, by viewer
+        self._pulses: dict[int, float] = {}  # inputs of pressed switches, by index of the axis
 
-    @property
-    def inputs(self) -> tuple[float, ...] | None:
-        """The sum of all viewers' inputs for each axis, -1..1; None before the first input."""
-        return sum_inputs(self._inputs)
+    def take_inputs(self) -> tuple[float, ...] | None:
+        """Return the sum of all viewers' inputs for each axis, -1..1; None before the first input.
+
+        A switch that was pressed since the last call has its input, although it may be released.
+        """
+        inputs = sum_inputs(self._inputs)
+        if inputs is None:
+            return None
+        pulses, self._pulses = self._pulses, {}
+        return tuple(pulses.get(index, value) for index, value in enumerate(inputs))
 
     @property
     def view(self) -> Message | None:
@@ -89,6 +96,10 @@ class ViewerRequests:
     def _set_input(self, viewer: int, values: tuple[float, ...]) -> Changes:
         if self._inputs.get(viewer) == values:
             return Changes.NONE
+        for axis in SWITCH_AXES:
+            value = values[AXES.index(axis)]
+            if abs(value) > 0.5:
+                self._pulses[AXES.index(axis)] = value
         self._inputs[viewer] = values
         return Changes.INPUT
 
