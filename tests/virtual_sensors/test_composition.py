@@ -24,6 +24,8 @@ from uwsim.errors import BadSetting, UnknownName
 from uwsim.messages import Image, depth_image, image, pixels_of
 from uwsim.optics import find_water
 from uwsim.optics.transmission import compute_full_field
+from uwsim.particles import ParticlesSpec
+from uwsim.particles.marine_snow import MarineSnowSpec
 from uwsim.scene.physical_water import PhysicalWaterSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
@@ -37,6 +39,7 @@ from uwsim.virtual_sensors import (
     make_followed_scene,
     make_track,
 )
+from uwsim.virtual_sensors.composed_camera import hide_particles
 from uwsim.virtual_sensors.composition import AddedFog, AddedPhysicalWater, compute_shadow
 
 
@@ -268,3 +271,22 @@ def test_fog_of_zero_density_changes_nothing() -> None:
     layers = Layers(virtual_colour=pixels, virtual_range=far, real_range=far)
     fog = AddedFog(density=0.0, colour=(1.0, 1.0, 1.0))
     assert np.array_equal(compose_image(pixels, layers, fog), pixels)
+
+
+def test_particles_change_a_real_image_as_they_change_the_rendered_one(tmp_path: Path) -> None:
+    scene = camera_scene(tmp_path, WALL)
+    snow = ParticlesSpec(marine_snow=MarineSnowSpec(concentration=20000.0))
+    water = PhysicalWaterSpec(law="physical", type="jerlov-IB", particles=snow)
+    snowy_scene = replace(scene, ocean_state=replace(scene.ocean_state, water=water))
+    with open_scene(snowy_scene) as simulation:
+        simulation.advance(0.0)
+        expected = colours(simulation)
+        with hide_particles(simulation.world.scenery):
+            clear = colours(simulation)
+    assert 0.001 < (clear != expected).any(axis=2).mean() < 0.9
+    composed = compose(snowy_scene, clear, real_objects=("wall",), has_particles=True)
+    assert np.array_equal(composed, expected)
+    plain = compose(snowy_scene, clear, real_objects=("wall",))
+    assert np.array_equal(plain, clear)
+    with pytest.raises(BadSetting, match="no particles to add"):
+        compose(scene, clear, has_particles=True)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from ..rendering.noise import add_noise
 from ..rendering.rendered_image import RenderedImage
 from ..scene.object import TERRAIN
 from ..simulation import Simulation
+from ..simulation.scenery.scenery import Scenery
 from .composition import (
     AddedFog,
     AddedPhysicalWater,
@@ -58,6 +60,8 @@ class ImageComposition:
     """The assumed range of real surfaces without geometry [m]; None: infinite."""
     adds_water: bool = False
     """True if the scene's physical water is added over the real images, taken in clear water."""
+    has_particles: bool = False
+    """True if the particles of the scene are added, over real and virtual pixels."""
     has_shadows: bool = False
     """True if virtual objects cast shadows of the sun on real ones."""
 
@@ -118,6 +122,8 @@ class ComposedCamera:
             raise BadSetting(
                 "The scene has no physical water to add; expected <u:water>, or a fog density."
             )
+        if composition.has_particles and (model != "physical" or self._scenery.particles is None):
+            raise BadSetting("The scene has no particles to add; expected <u:particles>.")
         if not math.isfinite(composition.fog) or composition.fog < 0.0:
             raise BadSetting(f"A fog of {composition.fog:g} 1/m; expected a number of at least 0.")
 
@@ -152,6 +158,24 @@ class ComposedCamera:
             warn(f"{self._composition.topic}: {reason} It is left out.")
 
     def _render_layers(self) -> Layers:
+        particles = self._render_particles() if self._composition.has_particles else None
+        with hide_particles(self._scenery):
+            return replace(self._render_clear_layers(), particles=particles)
+
+    def _render_particles(self) -> npt.NDArray[np.int16]:
+        """Return the change of each stored colour of the whole scene by particles, (h, w, 3)."""
+        seen_colour = self._render(frozenset(), {"colour"}).colour
+        with hide_particles(self._scenery):
+            clear_colour = self._render(frozenset(), {"colour"}).colour
+        assert seen_colour is not None
+        assert clear_colour is not None
+        change = (
+            seen_colour.view(np.uint8)[..., :3].astype(np.int16)
+            - clear_colour.view(np.uint8)[..., :3]
+        )
+        return change.astype(np.int16)
+
+    def _render_clear_layers(self) -> Layers:
         virtual_view = self._render(self._real_ids, {"colour", "range"}, fog=self._total_fog)
         assert virtual_view.colour is not None
         assert virtual_view.range is not None
@@ -246,6 +270,16 @@ class ComposedCamera:
             is_polished=self._camera.is_polished,
             hidden_ids=hidden_ids,
         )
+
+
+@contextmanager
+def hide_particles(scenery: Scenery) -> Iterator[None]:
+    """Draw no particles of a scene within the block."""
+    particles, scenery.particles = scenery.particles, None
+    try:
+        yield
+    finally:
+        scenery.particles = particles
 
 
 def _split_parts(

@@ -17,6 +17,8 @@ radiance B of the water behind everything, rendered for the pixel. A recorded im
 sRGB with the exposure of the scene's cameras. A real surface that no geometry covers has an
 infinite range, unless a range is assumed.
 
+Particles change each colour as they change the rendered image of the whole scene, real and virtual.
+
 Not modelled: the blur of physical water and the veil of lamps over recorded pixels, light from
 virtual objects on real surfaces, refraction, and soft edges of virtual objects.
 """
@@ -54,6 +56,8 @@ class Layers:
     """The ranges of the virtual objects, (h, w) [m]; inf: none."""
     real_range: npt.NDArray[np.float32]
     """The ranges of the real surfaces, (h, w) [m]; inf: unknown, or none."""
+    particles: npt.NDArray[np.int16] | None = None
+    """The change of each stored colour by particles in the water, (h, w, 3); None: none."""
     shadow: npt.NDArray[np.float32] | None = None
     """The fraction of the light that virtual objects leave on real surfaces, (h, w, 3) [0..1];
     None: all."""
@@ -118,6 +122,8 @@ def compose_image(recorded_image: Pixels, layers: Layers, water: AddedWater = No
         colours = add_physical_water(colours, layers.real_range, water)
     is_virtual = layers.is_virtual[..., None]
     image: Pixels = np.where(is_virtual, layers.virtual_colour, colours)
+    if layers.particles is not None:
+        image = (image + layers.particles).clip(0, 255).astype(np.uint8)
     return image if recorded_image.ndim == 3 else _make_grey(image)
 
 

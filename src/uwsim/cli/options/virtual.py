@@ -139,6 +139,14 @@ class CompositionOptions:
             help="Add the physical water of the scene over real images, taken in clear water.",
         ),
     ] = False
+    add_particles: Annotated[
+        bool,
+        option(
+            INPUT,
+            "--add-particles",
+            help="Add the particles of the scene's physical water, such as marine snow.",
+        ),
+    ] = False
     assume_range: Annotated[
         float | None,
         option(
@@ -175,6 +183,7 @@ class CompositionOptions:
             "--depth-topic": self.depth_topic,
             "--add-fog": self.add_fog,
             "--add-water": self.add_water,
+            "--add-particles": self.add_particles,
             "--assume-range": self.assume_range,
             "--shadows": self.shadows,
             "--frames": self.frames,
@@ -202,6 +211,7 @@ class CompositionOptions:
             fog=self.add_fog,
             unknown_range=self.assume_range,
             adds_water=self.add_water,
+            has_particles=self.add_particles,
             has_shadows=self.shadows,
         )
 

@@ -29,6 +29,7 @@ import numpy as np
 from ...autopilots.mavlink.vehicle_pose import PoseReader, PoseReaderState
 from ...base.external_values import EXPECTED_POSE, read_pose
 from ...base.geometry import Pose
+from ...base.numerics.linear import rotate_back
 from ...base.record import Record
 from ...bus import Remark
 from ...errors import BadSetting
@@ -182,7 +183,8 @@ class PoseFollower(Device):
         base_twist = None
         if twist:
             turn = self._body_from_base.rotation
-            linear, angular = np.array(twist[:3]) @ turn, np.array(twist[3:]) @ turn
+            linear = rotate_back(turn, np.array(twist[:3]))
+            angular = rotate_back(turn, np.array(twist[3:]))
             base_twist = (*linear.tolist(), *angular.tolist())
         world_from_base = self._world_from_axes @ pose @ self._body_from_base
         self._filter.accept(MeasuredPose(world_from_base, self._world.time, stamp, base_twist))
