@@ -77,7 +77,10 @@ def test_the_speed_on_a_straight_course_is_that_of_the_published_equations() -> 
 
 
 @pytest.mark.parametrize("side", ["starboard", "port"])
-@pytest.mark.parametrize("rudder", [4.0, 8.0, 13.5])
+@pytest.mark.parametrize(
+    "rudder",
+    [pytest.param(4.0, marks=pytest.mark.slow), pytest.param(8.0, marks=pytest.mark.slow), 13.5],
+)
 def test_turning_circles_agree_with_the_published_equations(side: str, rudder: float) -> None:
     ours, published = run_both(TurningCircleNode, rudder=rudder, side=side)
     assert ours.is_complete
@@ -104,6 +107,7 @@ def test_the_crash_stop_agrees_with_the_published_equations() -> None:
     compare(ours, published, "track_reach head_reach time")
 
 
+@pytest.mark.slow
 def test_the_pull_outs_leave_the_yaw_rates_of_the_published_equations() -> None:
     for side in ("starboard", "port"):
         runs = run_both(PullOutNode, rudder=8.0, side=side, neutral="0.7", hold=30.0)

@@ -88,8 +88,10 @@ def make_experiment(
     if vehicle is not None and vehicle not in names:
         raise UnknownName("vehicle with u:dynamics", vehicle, names)
     vehicle_spec = candidates[0 if vehicle is None else names.index(vehicle)]
-    start = scene.world_from_localized.rotation @ vehicle_spec.localized_from_base.rotation
-    roll = 0.0 if start[2, 2] < 0.0 else math.pi  # z of the base points down or up in W
+    world_from_base = scene.world_from_localized @ vehicle_spec.localized_from_base
+    roll = (
+        0.0 if world_from_base.rotation[2, 2] < 0.0 else math.pi
+    )  # z of the base points down or up in W
     placed_vehicle = replace(
         vehicle_spec,
         parts=(),
