@@ -222,13 +222,21 @@ def _convert_motion(motion: MotionSeries, model: VehicleModel) -> Array:
     """Return the motion in W, (n, `N_MOTION`)."""
     pose = model.world_from_localized
     rows = np.full((len(motion.times), N_MOTION), np.nan)
-    rows[:, :3] = rotate_rows(pose.rotation, motion.positions) + pose.position
+    rows[:, :3] = _rotate_known(pose.rotation, motion.positions) + pose.position
     rows[:, 3:7] = multiply_quaternions(
         np.tile(quaternion_from_rotation(pose.rotation), (len(rows), 1)), motion.quaternions
     )
     if motion.twists is not None:
         rows[:, 7:] = motion.twists
     return rows
+
+
+def _rotate_known(rotation: Array, vectors: Array) -> Array:
+    """Rotate vectors (n, 3); a component is NaN if it depends on one that is NaN."""
+    is_missing = ~np.isfinite(vectors)
+    rotated = rotate_rows(rotation, np.where(is_missing, 0.0, vectors))
+    depends = (is_missing[:, None, :] & (np.abs(rotation) > 1e-9)).any(axis=2)
+    return np.where(depends, np.nan, rotated)
 
 
 def _average_commands(

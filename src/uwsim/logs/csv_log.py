@@ -258,7 +258,11 @@ class _Builder:
         if motion.quaternion:
             quaternions = self._stack(motion.quaternion, "1")
         elif motion.rpy:
-            quaternions = quaternions_from_rpy(self._stack(motion.rpy, motion.angle_unit))
+            angles = self._stack(motion.rpy, motion.angle_unit)
+            if not all(motion.rpy):  # the log of a surface craft may have the heading alone
+                angles[:, [not name for name in motion.rpy]] = 0.0
+                self._remarks.append("motion: an angle has no column; it counts as 0.")
+            quaternions = quaternions_from_rpy(angles)
         else:
             return None
         no_columns = ("", "", "")
