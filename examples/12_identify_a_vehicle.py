@@ -31,10 +31,10 @@ def main() -> None:
         error = 100.0 * abs(estimate.value / value - 1.0)
         close = "within 2 %" if error < 2.0 else f"{error:.0f} % off"
         print(f"{parameter.name}: first guess {parameter.first_guess:.3g}, now {close}")
-    last = [row for row in result.horizons if row.quantity == "position"][-1]
-    ratio = last.first_error / last.fitted_error
+    position = [row for row in result.horizons if row.quantity == "position"][-1]
+    ratio = position.first_error / position.fitted_error
     print(
-        f"error after {last.horizon:g} s: {'more' if ratio > 5.0 else 'less'} than 5 times smaller"
+        f"error after {position.horizon:g} s: {'more' if ratio > 5.0 else 'less'} than 5 times smaller"
     )
 
 

@@ -232,11 +232,11 @@ def _convert_motion(motion: MotionSeries, model: VehicleModel) -> Array:
 
 
 def _rotate_known(rotation: Array, vectors: Array) -> Array:
-    """Rotate vectors (n, 3); a component is NaN if it depends on one that is NaN."""
+    """Rotate vectors (n, 3); a component is NaN if it has_gap on one that is NaN."""
     is_missing = ~np.isfinite(vectors)
-    rotated = rotate_rows(rotation, np.where(is_missing, 0.0, vectors))
-    depends = (is_missing[:, None, :] & (np.abs(rotation) > 1e-9)).any(axis=2)
-    return np.where(depends, np.nan, rotated)
+    components = rotate_rows(rotation, np.where(is_missing, 0.0, vectors))
+    has_gap = (is_missing[:, None, :] & (np.abs(rotation) > 1e-9)).any(axis=2)
+    return np.where(has_gap, np.nan, components)
 
 
 def _average_commands(
