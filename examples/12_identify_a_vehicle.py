@@ -33,9 +33,8 @@ def main() -> None:
         print(f"{parameter.name}: first guess {parameter.first_guess:.3g}, now {close}")
     position = [row for row in result.horizons if row.quantity == "position"][-1]
     ratio = position.first_error / position.fitted_error
-    print(
-        f"error after {position.horizon:g} s: {'more' if ratio > 5.0 else 'less'} than 5 times smaller"
-    )
+    word = "more" if ratio > 5.0 else "less"
+    print(f"error after {position.horizon:g} s: {word} than 5 times smaller")
 
 
 if __name__ == "__main__":

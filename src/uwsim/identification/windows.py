@@ -232,7 +232,7 @@ def _convert_motion(motion: MotionSeries, model: VehicleModel) -> Array:
 
 
 def _rotate_known(rotation: Array, vectors: Array) -> Array:
-    """Rotate vectors (n, 3); a component is NaN if it has_gap on one that is NaN."""
+    """Rotate vectors (n, 3); a component is NaN if it depends on one that is NaN."""
     is_missing = ~np.isfinite(vectors)
     components = rotate_rows(rotation, np.where(is_missing, 0.0, vectors))
     has_gap = (is_missing[:, None, :] & (np.abs(rotation) > 1e-9)).any(axis=2)
