@@ -12,14 +12,14 @@ from ...autopilots.instruments.rdi_pd4 import write_pd4
 from ...autopilots.instruments.rdi_pd6 import write_pd6
 from ...autopilots.instruments.water_linked import VelocityReport
 from ...messages import DVL, Imu, NavSatFix, Pressure, Range
-from .measurements import Carrier
+from .measurements import InstrumentCarrier
 
 
 @dataclass(frozen=True)
 class Sample:
     """A message of a topic, and what its bytes depend on besides."""
 
-    carrier: Carrier
+    carrier: InstrumentCarrier
     """The vehicle with the instruments."""
     message: Any
     """The message."""

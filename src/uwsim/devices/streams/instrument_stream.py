@@ -38,7 +38,7 @@ from ...world import ByteStream, DeviceWorld, TerminalStream
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .endpoint import describe_endpoint_errors, raise_stream_errors
 from .formats import BEACON_FORMATS, FORMATS, Format, Sample
-from .measurements import Carrier, is_base_z_down
+from .measurements import InstrumentCarrier, is_base_z_down
 from .observer import StreamObserver
 from .serial_line import LineState, SerialLine
 
@@ -122,7 +122,7 @@ class InstrumentStreamSpec(DeviceSpec):
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> InstrumentStream:
         """Open the stream and subscribe to the topic; raise SceneError."""
         raise_stream_errors(self, "u:instrumentStream", self.errors())
-        carrier = Carrier(
+        carrier = InstrumentCarrier(
             vehicle=vehicle,
             origin=world.ned_origin,
             world_from_localized=world.world_from_localized,
@@ -164,7 +164,7 @@ class InstrumentStream(Device):
         self,
         spec: InstrumentStreamSpec,
         world: DeviceWorld,
-        carrier: Carrier,
+        carrier: InstrumentCarrier,
         connection: ByteStream | None,
         rng: np.random.Generator,
     ) -> None:

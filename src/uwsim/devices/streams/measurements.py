@@ -25,7 +25,7 @@ MIN_COURSE_SPEED = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Carrier:
+class InstrumentCarrier:
     """The vehicle that carries the instruments, and the frames of their values."""
 
     vehicle: Vehicle
