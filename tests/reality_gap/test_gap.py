@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.reality_gap.fossen import Rov, write_log
-from uwsim.errors import BadSetting
+from tests.logs.dataflash_files import FORMAT_OF_FORMATS, FORMATS, format_message, message
+from tests.reality_gap.fossen import Rov, rotation_of, write_log
+from uwsim.assets.bundled import scene_file
+from uwsim.errors import BadSetting, SimulationFailed
 from uwsim.logs import read_log, write_csv_log
 from uwsim.reality_gap import Gap, GapSettings, measure_gap
 from uwsim.reality_gap.report import WRITTEN_FILES, write_gap
@@ -190,3 +193,54 @@ def test_a_log_survives_writing_and_reading(true_log: Path, tmp_path: Path) -> N
 def test_invalid_horizons_are_errors(horizons: tuple[float, ...]) -> None:
     with pytest.raises(BadSetting, match="horizons"):
         GapSettings(horizons=horizons)
+
+
+def write_dataflash(path: Path, csv_log: Path) -> Path:
+    """Write a log as ArduSub of the frame vectored_6dof would; its motors 1 and 2 push back."""
+    log = read_log(csv_log)
+    motion, [commands] = log.motion, log.commands
+    assert motion is not None
+    assert motion.twists is not None
+    entries = []
+    for index in range(0, len(motion.times), 5):
+        time = round(1e6 * motion.times[index]) + 5_000_000
+        rotation, twist = rotation_of(motion.quaternions[index]), motion.twists[index]
+        angles = (
+            math.atan2(rotation[2, 1], rotation[2, 2]),
+            -math.asin(rotation[2, 0]),
+            math.atan2(rotation[1, 0], rotation[0, 0]) % (2 * math.pi),
+        )
+        roll, pitch, yaw = (round(100 * math.degrees(angle)) for angle in angles)
+        velocity = rotation @ twist[:3]
+        position = motion.positions[index] - [0.0, 0.0, 17.5]
+        entries.append((time, message("RATE", time, *np.degrees(twist[3:]))))
+        numbers = (*velocity, 0.0, *position)
+        entries.append((time, message("XKF1", time, 0, roll, pitch, yaw % 36000, *numbers)))
+    signs = np.array([-1, -1, 1, 1, 1, 1, 1, 1])
+    for time, values in zip(commands.times.tolist(), commands.values, strict=True):
+        stamp = round(1e6 * time) + 5_000_000
+        pulses = [round(1500 + 400 * value) for value in (signs * values).tolist()]
+        entries.append((stamp, message("RCOU", stamp, *pulses)))
+    parts = [FORMAT_OF_FORMATS, *map(format_message, FORMATS)]
+    for motor in range(8):
+        name = f"SERVO{motor + 1}_FUNCTION".encode()
+        parts.append(message("PARM", 0, name, 33.0 + motor))
+    parts += [data for _, data in sorted(entries, key=lambda entry: entry[0])]
+    path.write_bytes(b"".join(parts))
+    return path
+
+
+def test_the_motors_of_an_autopilots_log_drive_the_thrusters_of_the_scene(
+    true_log: Path, tmp_path: Path
+) -> None:
+    scene = read_scene(scene_file("bluerov2-scene", ()))
+    path = write_dataflash(tmp_path / "dive.bin", true_log)
+    gap = measure(path, scene, n_windows=10, has_attribution=False)
+    assert gap.horizons[0].distance.value < 0.02  # angles of 0.01 degrees, pulses of 1 us
+    assert gap.horizons[1].distance.value < 0.1
+
+
+def test_a_log_below_the_floor_of_the_scene_names_the_window(true_log: Path) -> None:
+    scene = read_scene(scene_file("bluerov2-scene", ()))
+    with pytest.raises(SimulationFailed, match=r"(?s)The window at .* set origin in \[frames\]"):
+        measure(true_log, scene, has_attribution=False)

@@ -59,6 +59,7 @@ class VehicleCommands:
             for part in (main, fins)
             if part is not None
         ]
+        self._times = np.unique(np.concatenate([part.times for part, _ in self._series]))
 
     @property
     def start(self) -> float:
@@ -73,8 +74,8 @@ class VehicleCommands:
 
     def change_times(self, start: float, end: float) -> list[float]:
         """Return the times of commands in an interval, ascending [s]."""
-        times = np.concatenate([part.times for part, _ in self._series])
-        return sorted(set(times[(times > start) & (times < end)].tolist()))
+        first_index, end_index = np.searchsorted(self._times, [start, end])
+        return [time for time in self._times[first_index:end_index].tolist() if time > start]
 
     def apply(self, vehicle: SceneVehicle, time: float) -> None:
         """Apply the commands that are in effect at a time [s]."""

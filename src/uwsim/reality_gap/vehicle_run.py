@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.geometry import Array, Pose
-from ..errors import BadSetting, UnknownName
+from ..errors import BadSetting, SimulationFailed, UnknownName
 from ..model.scene_model import SceneModel
 from ..simulation import Simulation
 from .log_motion import LogMotion
@@ -70,7 +70,19 @@ class VehicleRun:
         """Simulate a window; return the motion at some times after its beginning, ascending [s].
 
         A command takes effect at the first step at or after its time.
+
+        Raises:
+            SimulationFailed: the vehicle meets the ground, or its motion is impossible.
         """
+        try:
+            return self._simulate(start, offsets)
+        except SimulationFailed as error:
+            raise SimulationFailed(
+                f"The window at {start:.2f} s of the log failed. {error}\nIf the log has another "
+                "origin than the scene, set origin in [frames] of a mapping file."
+            ) from None
+
+    def _simulate(self, start: float, offsets: Sequence[float]) -> SimulatedMotion:
         self.begin(start)
         simulation, timestep = self.simulation, self.simulation.timestep
         changes = self.commands.change_times(start, start + offsets[-1])
