@@ -18,7 +18,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples" / "ardupilot"
 def bench(name: str, out: Path, law: Law, *words: str, **stub: int) -> tuple[int, Stub]:
     port = free_port()
     path = f"vehicle[bluerov2].ardupilot.port={port}"
-    with Stub(port, law, **stub) as autopilot:  # type: ignore[arg-type]
+    with Stub(port, law, timeout=30.0, **stub) as autopilot:  # type: ignore[arg-type]
         options = ["--ardupilot", "--workers", "0", "--out", str(out), "--set", path]
         status = uwsim(["bench", str(EXAMPLES / name), *options, *words])
     return status, autopilot

@@ -180,11 +180,11 @@ class Stub:
     def _receive(self, count: int, pwm: list[int]) -> bytes | None:
         start = time.monotonic()
         while not self._is_stopped.is_set():
-            left = self.timeout - (time.monotonic() - start)
+            # the simulation may not have opened its port yet
+            timeout = self.timeout if self.n_frames else min(self.timeout, 0.3)
+            left = timeout - (time.monotonic() - start)
             try:
-                if left <= 0.0:
-                    raise TimeoutError
-                self._socket.settimeout(left)
+                self._socket.settimeout(min(max(left, 0.001), 0.1))  # reads in any case
                 answer = self._socket.recv(65000)
                 if self.loss and self._generator.random() < self.loss:
                     continue
@@ -192,6 +192,8 @@ class Stub:
             except ConnectionError:
                 time.sleep(0.01)
             except TimeoutError:
+                if left > 0.1:
+                    continue
                 self.n_repeats += 1
                 self._send(count, pwm)
                 start = time.monotonic()

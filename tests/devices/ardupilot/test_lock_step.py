@@ -66,7 +66,7 @@ def test_two_runs_have_the_same_bytes() -> None:
     digests = []
     for _ in range(2):
         port = free_port()
-        with opened(port) as simulation, Stub(port, descend) as stub:
+        with opened(port) as simulation, Stub(port, descend, timeout=30.0) as stub:
             simulation.advance(1.0)
             digests.append(pose_bytes(simulation))
             states = stub.states[:390]
@@ -99,7 +99,7 @@ def test_lossy_and_lossless_runs_move_alike() -> None:
     for loss in (0.0, 0.05):
         port = free_port()
         with opened(port) as simulation:
-            with Stub(port, descend, loss=loss, timeout=1.0 if loss == 0.0 else 0.3):
+            with Stub(port, descend, loss=loss, timeout=30.0 if loss == 0.0 else 0.5):
                 simulation.advance(0.25)
             poses.append(pose_bytes(simulation))
     assert poses[0] == poses[1]
