@@ -167,6 +167,17 @@ def test_a_log_without_commands_is_an_error(
         measure(path, scene)
 
 
+def test_a_log_of_few_poses_without_twists_is_an_error(
+    true_log: Path, scene: SceneSpec, tmp_path: Path
+) -> None:
+    lines = [line.split(",") for line in true_log.read_text().splitlines()]
+    rows = [lines[0], *lines[1::250]]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(",".join([*row[:8], *row[14:]]) for row in rows) + "\n")
+    with pytest.raises(BadSetting, match="too few poses"):
+        measure(path, scene)
+
+
 def test_no_window_spans_a_gap_of_the_log(true_log: Path, scene: SceneSpec, tmp_path: Path) -> None:
     lines = true_log.read_text().splitlines(keepends=True)
     kept_lines = [line for line in lines[1:] if not 8.0 < float(line.split(",")[0]) < 10.0]

@@ -88,11 +88,21 @@ class _Measurement:
         self._progress: Progress = progress or (lambda title, total: nullcontext(lambda: None))
         self._remarks = list(log.remarks)
         self._motion = LogMotion(_check_motion(log))
+        if not np.isfinite(self._motion.twists(self._motion.times)).all():
+            raise BadSetting(
+                f"{log.path} has no twists, and too few poses to estimate them: "
+                f"{len(self._motion.times)}."
+            )
         self._scene = scene
         self._model = self._compile(scene)
         self._index = find_vehicle(self._model, vehicle)
         self._name = self._model.scene.vehicles[self._index].name
         _check_frame(log, self._model)
+        ocean = self._model.scene.ocean_state
+        if ocean.waves or ocean.currents:
+            self._remarks.append(
+                "the scene has waves or currents; each window begins at their time 0."
+            )
         self._log = name_motors(log, self._model.scene.vehicles[self._index])
 
     def run(self) -> Gap:
