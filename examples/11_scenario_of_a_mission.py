@@ -19,13 +19,13 @@ ODOMETRY = (
 
 
 def main() -> None:
-    tank, dive, scenario = Path("tank.xml"), Path("dive.mcap"), Path("scenario")
+    tank, recording, scenario = Path("tank.xml"), Path("dive.mcap"), Path("scenario")
     text = scene_file("visibility-moving-scene").read_text()
     tank.write_text(text.replace("<rosInterfaces>", f"<rosInterfaces> {ODOMETRY}", 1))
-    run("run", tank, "--for", "2s", "--record", dive)
+    run("run", tank, "--for", "2s", "--record", recording)
 
     options = ["--images", "/uwsim/camera1", "--target", "blackbox", "--levels", "0:0.8:0.4"]
-    run("scenario", dive, "--scene", tank, *options, "-o", scenario)
+    run("scenario", recording, "--scene", tank, *options, "-o", scenario)
     print("files:", ", ".join(sorted(path.name for path in scenario.iterdir())))
 
     for name in ("benchmark", "benchmark-rendered"):

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-import mujoco
 import numpy as np
 
+from ..base.engine import mujoco
 from ..base.geometry import Array
 from ..model.scene_model import SceneModel
 from ..physics.hydrodynamics import prepare

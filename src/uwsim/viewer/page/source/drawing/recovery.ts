@@ -24,9 +24,9 @@ export function reloadAfterContextLoss(canvas: HTMLCanvasElement, say: (text: st
 
 /** Add a reload to the list of recent ones; return false if there were too many. */
 function countReload(now: number): boolean {
-  const stored = sessionStorage.getItem(RELOADS) ?? "";
-  const recent = stored.split(" ").map(Number).filter((time) => time > now - RELOAD_WINDOW);
-  if (recent.length >= MAX_RELOADS) return false;
-  sessionStorage.setItem(RELOADS, [...recent, now].join(" "));
+  const text = sessionStorage.getItem(RELOADS) ?? "";
+  const times = text.split(" ").map(Number).filter((time) => time > now - RELOAD_WINDOW);
+  if (times.length >= MAX_RELOADS) return false;
+  sessionStorage.setItem(RELOADS, [...times, now].join(" "));
   return true;
 }
