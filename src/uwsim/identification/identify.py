@@ -154,7 +154,7 @@ def identify(
     counter.count()
     first_errors = simulate_errors(fine_residuals, fine_residuals.start().values)
     held_out = _validate(coarse_residuals, fine_residuals, solution.fit, noise, settings, counter)
-    excitation = measure_excitation(windows, noise)
+    excitation = measure_excitation(windows, first_noise(fine_residuals, settings.noise))
     rows = fine_residuals.compute(solution.fit, 1.0 / noise)
     return Identification(
         model=model,

@@ -146,6 +146,9 @@ def _make_estimate(parameter: Parameter, value: float, error: float, half_width:
     """Return an estimate; error and half width are in plausible errors."""
     scale = parameter.plausible_error
     reach = 1e-3 * (parameter.maximum - parameter.minimum)
+    # plausible errors are relative: a coefficient far above its first guess has greater ones
+    is_positive = parameter.first_guess > 0.0 and parameter.minimum >= 0.0
+    growth = max(1.0, value / parameter.first_guess) if is_positive else 1.0
     is_low = value - parameter.minimum <= min(reach, 0.01 * scale)
     return Estimate(
         parameter=parameter,
@@ -153,7 +156,7 @@ def _make_estimate(parameter: Parameter, value: float, error: float, half_width:
         standard_error=scale * error,
         low=max(value - scale * half_width, parameter.minimum),
         high=min(value + scale * half_width, parameter.maximum),
-        is_determined=error <= MAX_ERROR,
+        is_determined=error <= MAX_ERROR * growth,
         is_at_bound=is_low or parameter.maximum - value <= min(reach, 0.01 * scale),
     )
 
