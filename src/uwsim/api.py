@@ -366,6 +366,7 @@ def gap(
     """
     from .assets.bundled import scene_file
     from .logs import VehicleLog, read_log
+    from .physics.compile_scene import compile_scene
     from .reality_gap import GapSettings, measure_gap
     from .reality_gap.report import write_gap
     from .scene.reader import read_scene
@@ -382,7 +383,8 @@ def gap(
         log = read_log(log, mapping=mapping, vehicle=vehicle)
     if isinstance(scene, str | Path):
         scene = read_scene(scene_file(str(scene), folders), data_path=folders)
-    measured_gap = measure_gap(log, scene, vehicle=vehicle, settings=settings, data_path=folders)
+    model = compile_scene(scene, seed=settings.seed, data_path=folders)
+    measured_gap = measure_gap(log, model, vehicle=vehicle, settings=settings)
     if out is not None:
         write_gap(measured_gap, Path(out))
     return measured_gap

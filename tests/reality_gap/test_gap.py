@@ -15,6 +15,7 @@ from tests.reality_gap.fossen import Rov, rotation_of, write_log
 from uwsim.assets.bundled import scene_file
 from uwsim.errors import BadSetting, SimulationFailed
 from uwsim.logs import read_log, write_csv_log
+from uwsim.physics.compile_scene import compile_scene
 from uwsim.reality_gap import Gap, GapSettings, measure_gap
 from uwsim.reality_gap.report import WRITTEN_FILES, write_gap
 from uwsim.scene.reader import read_scene
@@ -44,7 +45,7 @@ def scene() -> SceneSpec:
 
 def measure(path: Path, scene: SceneSpec, **settings: object) -> Gap:
     values = {"n_windows": 40, "horizons": (1.0, 5.0), **settings}
-    return measure_gap(read_log(path), scene, settings=GapSettings(**values))  # type: ignore[arg-type]
+    return measure_gap(read_log(path), compile_scene(scene), settings=GapSettings(**values))  # type: ignore[arg-type]
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +128,9 @@ def test_a_log_of_the_simulator_itself_has_no_gap(true_log: Path, scene: SceneSp
             ),
         ),
     )
-    gap = measure_gap(own_log, scene, settings=GapSettings(n_windows=8, horizons=(1.0, 5.0)))
+    gap = measure_gap(
+        own_log, compile_scene(scene), settings=GapSettings(n_windows=8, horizons=(1.0, 5.0))
+    )
     assert gap.horizons[1].distance.value < 1e-6
     assert gap.attribution is not None
     assert gap.attribution.causes == ()

@@ -2,7 +2,7 @@
 
 .. code-block:: python
 
-    gap = measure_gap(read_log("dive.mcap"), read_scene("pool.xml"))
+    gap = measure_gap(read_log("dive.mcap"), compile_scene(read_scene("pool.xml")))
     print(gap.verdict)
 """
 

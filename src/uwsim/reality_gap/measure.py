@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -43,33 +42,26 @@ Progress = Callable[[str, int], AbstractContextManager[Callable[[], None]]]
 
 def measure_gap(
     log: VehicleLog,
-    scene: SceneSpec,
+    model: SceneModel,
     *,
     vehicle: str | None = None,
     settings: GapSettings | None = None,
-    data_path: Sequence[Path] = (),
-    compatibility: frozenset[str] = frozenset(),
     progress: Progress | None = None,
 ) -> Gap:
     """Simulate the commands of a log from its states, window by window, and compare.
 
     Args:
         log: the log, with a motion and commands.
-        scene: the scene.
+        model: the scene.
         vehicle: the name of the vehicle in the scene; None: the only one with dynamics.
         settings: the settings; None: the defaults.
-        data_path: the folders in which files are searched.
-        compatibility: the names of the compatibility quirks that are on.
         progress: shows the progress.
 
     Raises:
         UwsimError: the log lacks a motion or commands, or does not fit the vehicle.
     """
     settings = settings or GapSettings()
-    compile_variant = partial(
-        compile_scene, seed=settings.seed, data_path=tuple(data_path), compatibility=compatibility
-    )
-    return _Measurement(log, scene, vehicle, settings, compile_variant, progress).run()
+    return _Measurement(log, model, vehicle, settings, progress).run()
 
 
 class _Measurement:
@@ -78,13 +70,12 @@ class _Measurement:
     def __init__(
         self,
         log: VehicleLog,
-        scene: SceneSpec,
+        model: SceneModel,
         vehicle: str | None,
         settings: GapSettings,
-        compile_variant: Callable[[SceneSpec], SceneModel],
         progress: Progress | None,
     ) -> None:
-        self._log, self._settings, self._compile = log, settings, compile_variant
+        self._log, self._settings, self._model = log, settings, model
         self._progress: Progress = progress or (lambda title, total: nullcontext(lambda: None))
         self._remarks = list(log.remarks)
         self._motion = LogMotion(_check_motion(log))
@@ -93,8 +84,7 @@ class _Measurement:
                 f"{log.path} has no twists, and too few poses to estimate them: "
                 f"{len(self._motion.times)}."
             )
-        self._scene = scene
-        self._model = self._compile(scene)
+        self._scene = model.source
         self._index = find_vehicle(self._model, vehicle)
         self._name = self._model.scene.vehicles[self._index].name
         _check_frame(log, self._model)
@@ -138,6 +128,17 @@ class _Measurement:
             attribution=attribution,
             points_down=_points_down(self._model),
             remarks=tuple(self._remarks),
+        )
+
+    def _compile(self, scene: SceneSpec) -> SceneModel:
+        """Compile a variant of the scene."""
+        model = self._model
+        return compile_scene(
+            scene,
+            seed=model.seed,
+            timestep=model.timestep,
+            data_path=model.data_path,
+            compatibility=model.compatibility,
         )
 
     def _open(self, model: SceneModel) -> _OpenRun:

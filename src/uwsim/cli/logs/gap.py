@@ -159,11 +159,9 @@ def gap(
     print_warnings(model_warnings(model))
     measured_gap = measure_gap(
         vehicle_log,
-        spec,
+        model,
         vehicle=options.vehicle,
         settings=settings,
-        data_path=folders,
-        compatibility=quirks,
         progress=lambda title, total: progress(title, total, unit="runs"),
     )
     write_gap(measured_gap, output.out, overwrite=output.overwrite)
