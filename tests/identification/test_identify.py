@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.identification.vehicles import NO_YAW, bluerov2, log_of, spoiled
+from tests.identification.vehicles import NO_YAW, bluerov2, log_of, spoil_guess
 from uwsim.identification import Identification, IdentifySettings, WindowSettings, identify
 from uwsim.identification.hydrodynamics_file import write_hydrodynamics
 from uwsim.identification.report.document import json_text
@@ -30,7 +30,7 @@ QUICK = IdentifySettings(
 
 
 def fit(log: VehicleLog, **changes: object) -> Identification:
-    return identify([log], spoiled(FACTORS), replace(QUICK, **changes))
+    return identify([log], spoil_guess(FACTORS), replace(QUICK, **changes))
 
 
 @cache

@@ -30,7 +30,7 @@ def bluerov2() -> VehicleModel:
     return open_vehicle(make_scene("bluerov2_heavy"))
 
 
-def spoiled(factors: Mapping[str, float]) -> VehicleModel:
+def spoil_guess(factors: Mapping[str, float]) -> VehicleModel:
     """Return the BlueROV2 with a first guess that is wrong by factors."""
     model = bluerov2()
     parameters = choose_parameters(tuple(factors), model)
