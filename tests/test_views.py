@@ -126,7 +126,7 @@ def test_what_belongs_together_is_passed_as_one() -> None:
         if len(parts & {each.arg for each in node.args.args + node.args.kwonlyargs}) > 2
     }
     # these make one of the scene of a file
-    assert found == {"load", "compile_scene", "scene_warnings", "measure_gap"}
+    assert found == {"load", "compile_scene", "scene_warnings"}
 
 
 def private_uses(path: Path) -> Iterator[str]:
