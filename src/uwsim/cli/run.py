@@ -98,13 +98,8 @@ def run(
         if spec is not None and no_code:
             refuse_code(spec)
     with errors.collect():
-        if spec is not None and program_options.ardupilot:
-            spec = connect_mavlink(connect_ardupilot(spec))
-    with errors.collect():
-        if spec is not None and program_options.px4:
-            if program_options.ardupilot:
-                raise BadSetting("--ardupilot and --px4 exclude each other.")
-            spec = connect_px4(spec)
+        if spec is not None:
+            spec = connect_autopilots(spec, program_options)
     quirks = compatibility_of(changes.compat or [], errors)
     with errors.collect():
         live_options.check()
@@ -148,6 +143,15 @@ def run(
         warn_of_invalid_input(simulation)
         if strict_clock is not None:
             raise_if_late(strict_clock.report())
+
+
+def connect_autopilots(spec: SceneSpec, options: ProgramOptions) -> SceneSpec:
+    """Return the scene with the elements of the autopilots that the options name."""
+    if options.ardupilot and options.px4:
+        raise BadSetting("--ardupilot and --px4 exclude each other.")
+    if options.ardupilot:
+        return connect_mavlink(connect_ardupilot(spec))
+    return connect_px4(spec) if options.px4 else spec
 
 
 def make_scene_topics(
