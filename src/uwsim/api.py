@@ -343,6 +343,7 @@ def gap(
     windows: int = 60,
     horizons: Sequence[float] = (1.0, 5.0, 20.0),
     seed: int = 0,
+    open_water: bool = False,
     attribution: bool = True,
     data_path: Sequence[str | Path] = (),
     out: str | Path | None = None,
@@ -357,6 +358,7 @@ def gap(
         windows: the greatest number of windows.
         horizons: the times after the beginning of a window at which the error is taken [s].
         seed: the seed of the scene's variations and of the intervals' resamples.
+        open_water: True to leave out the objects of the scene, such as floor and walls.
         attribution: True to search for the coefficient that explains the error.
         data_path: more folders in which files are searched.
         out: the directory of the report, which is empty or does not exist; None: no files.
@@ -367,7 +369,7 @@ def gap(
     from .assets.bundled import scene_file
     from .logs import VehicleLog, read_log
     from .physics.compile_scene import compile_scene
-    from .reality_gap import GapSettings, measure_gap
+    from .reality_gap import GapSettings, measure_gap, remove_objects
     from .reality_gap.report import write_gap
     from .scene.reader import read_scene
     from .simulation.access.arguments import check_seed
@@ -383,6 +385,8 @@ def gap(
         log = read_log(log, mapping=mapping, vehicle=vehicle)
     if isinstance(scene, str | Path):
         scene = read_scene(scene_file(str(scene), folders), data_path=folders)
+    if open_water:
+        scene = remove_objects(scene)
     model = compile_scene(scene, seed=settings.seed, data_path=folders)
     measured_gap = measure_gap(log, model, vehicle=vehicle, settings=settings)
     if out is not None:

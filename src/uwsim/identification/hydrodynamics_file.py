@@ -126,7 +126,7 @@ def describe_source(result: Identification) -> str:
 
 def describe_log(path: str, sha256: str, start: float) -> str:
     """Return a log's name, hash and date."""
-    parts = [f"sha256 {sha256[:16]}"] if sha256 else []
+    parts = [f"sha256 {sha256.removeprefix('sha256:')[:16]}"] if sha256 else []
     if start >= MIN_DATE:
         moment = datetime.datetime.fromtimestamp(int(start), tz=datetime.UTC)
         parts.append(f"of {moment:%Y-%m-%d %H:%M} UTC")

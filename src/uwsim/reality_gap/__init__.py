@@ -12,6 +12,7 @@ from .attribution import Attribution, Cause
 from .errors import AxisError, Estimate, HorizonError
 from .gap import Gap
 from .measure import Progress, measure_gap
+from .open_water import remove_objects
 from .settings import GapSettings
 
 __all__ = [
@@ -24,4 +25,5 @@ __all__ = [
     "HorizonError",
     "Progress",
     "measure_gap",
+    "remove_objects",
 ]

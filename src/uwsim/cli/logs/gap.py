@@ -64,6 +64,15 @@ class GapOptions:
     seed: Annotated[
         int, option(INPUT, "--seed", metavar="N", min=0, help="Seed of the intervals' resamples.")
     ] = 0
+    open_water: Annotated[
+        bool,
+        option(
+            INPUT,
+            "--open-water",
+            help="Leave out the objects of the scene, such as floor and walls: the log may have "
+            "another origin.",
+        ),
+    ] = False
     attribution: Annotated[
         bool,
         option(
@@ -123,7 +132,7 @@ def gap(
     from ...checks import model_warnings
     from ...logs import read_log
     from ...physics.compile_scene import compile_scene
-    from ...reality_gap import measure_gap
+    from ...reality_gap import measure_gap, remove_objects
     from ...reality_gap.report import PAGE, WRITTEN_FILES, WRITTEN_FOLDERS, print_gap, write_gap
     from ...reality_gap.report.document import json_text
     from ...reality_gap.settings import GapSettings
@@ -155,6 +164,8 @@ def gap(
     errors.raise_errors()
     assert spec is not None
     assert vehicle_log is not None
+    if options.open_water:
+        spec = remove_objects(spec)
     model = compile_scene(spec, seed=settings.seed, data_path=folders, compatibility=quirks)
     print_warnings(model_warnings(model))
     measured_gap = measure_gap(
