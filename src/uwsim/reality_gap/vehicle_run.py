@@ -79,8 +79,8 @@ class VehicleRun:
         except SimulationFailed as error:
             raise SimulationFailed(
                 f"The window at {start:.2f} s of the log failed. {error}\nIf the log has another "
-                "origin than the scene, set origin in [frames] of a mapping file, or leave out "
-                "floor and walls with --open-water."
+                "origin than the scene, set origin in [frames] of a mapping file. --open-water "
+                "leaves out floor and walls."
             ) from None
 
     def _simulate(self, start: float, offsets: Sequence[float]) -> SimulatedMotion:
