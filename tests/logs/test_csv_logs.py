@@ -138,6 +138,39 @@ def test_text_that_is_no_toml_is_an_error_with_its_line(tmp_path: Path) -> None:
         read_mapping(path)
 
 
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[" * 100_000, r"map\.toml:1: not TOML: Invalid initial character"),
+        ("[time]\nunit = " + "[" * 100_000, r"map\.toml: not TOML: lists or tables are nested"),
+        ("\n[commands.wrench]\ndelay = " + "1" * 5000, r"map\.toml:3: a number has more than 4000"),
+        (
+            "[commands.wrench]\ncolumns = ['a']\ndelay = 0x" + "f" * 5000,
+            r"map\.toml:3: delay of \[commands\.wrench\] is a number of thousands of digits",
+        ),
+        ("vehicle" + ".a" * 20_000 + " = 1", "vehicle of the file is a table of many levels"),
+    ],
+)
+def test_hostile_toml_is_an_error_of_the_file(text: str, message: str, tmp_path: Path) -> None:
+    path = tmp_path / "map.toml"
+    path.write_text(text)
+    with pytest.raises(MappingError, match=message) as error:
+        read_mapping(path)
+    assert len(str(error.value)) < 300
+
+
+def test_a_name_twice_and_a_sign_of_zero_are_errors_of_a_mapping(tmp_path: Path) -> None:
+    path = tmp_path / "map.toml"
+    path.write_text(
+        '[commands.thrusters]\ncolumns = ["a", "b"]\nnames = ["port", "port"]\nsigns = [1, 0]\n'
+    )
+    with pytest.raises(MappingError) as error:
+        read_mapping(path)
+    text = str(error.value)
+    assert "map.toml:3: names of [commands.thrusters] has 'port' twice" in text
+    assert "map.toml:4: signs of [commands.thrusters] has 0, which removes a command" in text
+
+
 def test_the_template_is_a_valid_mapping(tmp_path: Path) -> None:
     path = tmp_path / "map.toml"
     path.write_text(template_text(["Timestamp", "x"]))

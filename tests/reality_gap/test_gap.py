@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 from collections.abc import Callable
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 from tests.logs.dataflash_files import FORMAT_OF_FORMATS, FORMATS, format_message, message
 from tests.reality_gap.fossen import Rov, rotation_of, write_log
@@ -17,7 +19,7 @@ from uwsim.errors import BadSetting, SimulationFailed
 from uwsim.logs import read_log, write_csv_log
 from uwsim.physics.compile_scene import compile_scene
 from uwsim.reality_gap import Gap, GapSettings, measure_gap
-from uwsim.reality_gap.report import WRITTEN_FILES, write_gap
+from uwsim.reality_gap.report import WRITTEN_FILES, print_gap, write_gap
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 
@@ -190,6 +192,36 @@ def test_no_window_spans_a_gap_of_the_log(true_log: Path, scene: SceneSpec, tmp_
     starts = gap.windows.starts
     assert not ((starts > 7.0 + 1e-6) & (starts < 10.0 - 1e-6)).any()
     assert any("no sample from 8.00 s to 10.00 s" in remark for remark in gap.remarks)
+
+
+def test_windows_that_touch_a_position_without_a_number_are_left_out_and_counted(
+    true_log: Path, scene: SceneSpec, tmp_path: Path
+) -> None:
+    lines = true_log.read_text().splitlines()
+    row = next(i for i, line in enumerate(lines[1:], 1) if float(line.split(",")[0]) > 8.0)
+    cells = lines[row].split(",")
+    cells[lines[0].split(",").index("y")] = "nan"
+    lines[row] = ",".join(cells)
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(lines) + "\n")
+    gap = measure(path, scene, has_attribution=False)
+    time = float(cells[0])
+    starts = gap.windows.starts
+    assert not ((starts < time) & (starts + 1.0 > time)).any()
+    assert (starts < time).any()
+    assert (starts > time).any()
+    assert any(" 1 of " in r and "without a whole position" in r for r in gap.remarks)
+    assert "windows that touch a gap, left out: 1." in gap.remarks
+    assert all(math.isfinite(error.distance.value) for error in gap.horizons)
+    assert all(error.distance.value < 0.005 for error in gap.horizons)
+
+
+def test_the_tables_of_the_terminal_have_units(true_log: Path, scene: SceneSpec) -> None:
+    gap = measure(true_log, scene, has_attribution=False)
+    text = io.StringIO()
+    print_gap(gap, Console(file=text, width=120))
+    assert "surge [m]" in text.getvalue()
+    assert "yaw [°]" in text.getvalue()
 
 
 def test_a_log_survives_writing_and_reading(true_log: Path, tmp_path: Path) -> None:

@@ -54,6 +54,8 @@ SENSOR_KINDS = ("imu", "dvl", "pressure", "gps", "range", "battery")
 TOPIC_ROLES = ("odometry", "pose", "thrusters", "fins", "wrench", "twist", "joints")
 """The roles of topics in a recording, besides sensors."""
 VELOCITY_FRAMES = ("body", "world")
+MAX_DIGITS = 4000
+"""The number of digits of an integer up to which Python certainly reads it."""
 
 
 class MappingError(FileError):
@@ -174,6 +176,13 @@ def read_mapping(path: Path) -> LogMapping:
         raise MappingError(
             [Diagnostic(file=str(path), line=line, message=f"not TOML: {error}")]
         ) from None
+    except RecursionError:
+        message = "not TOML: lists or tables are nested too deeply"
+        raise MappingError([Diagnostic(file=str(path), line=None, message=message)]) from None
+    except ValueError:  # of Python's limit for the digits of an integer
+        line = _find_long_number(text)
+        message = f"a number has more than {MAX_DIGITS} digits"
+        raise MappingError([Diagnostic(file=str(path), line=line, message=message)]) from None
     reader = _Reader(path, text)
     mapping = reader.read(table)
     if reader.diagnostics:
@@ -281,6 +290,7 @@ class _Reader:
                 self._report(
                     key, f"{label} has {len(columns)} columns, but {len(values)} {key}", section
                 )
+        self._check_commands(names, signs, section)
         delay = self._number(table, "delay", label)
         return CommandMapping(
             columns=columns,
@@ -289,6 +299,16 @@ class _Reader:
             signs=signs,
             delay=delay,
         )
+
+    def _check_commands(
+        self, names: tuple[str, ...], signs: tuple[float, ...], section: str
+    ) -> None:
+        """Report names that are there twice, and factors of zero."""
+        for name in dict.fromkeys(name for name in names if names.count(name) > 1):
+            self._report("names", f"names of [{section}] has {name!r:.60} twice", section)
+        if 0.0 in signs:
+            message = f"signs of [{section}] has 0, which removes a command; expected such as -1"
+            self._report("signs", message, section)
 
     def _read_sensor(self, section: str, table: object) -> SensorMapping | None:
         label = f"[{section}]"
@@ -336,14 +356,14 @@ class _Reader:
         value = table.get(key, default)
         if isinstance(value, str) and len(value) <= MAX_NAME:
             return value
-        self._report(key, f"{key} of {label} is {value!r:.60}; expected a text")
+        self._report(key, f"{key} of {label} is {_quote(value)}; expected a text")
         return default
 
     def _choice(self, table: dict[str, Any], key: str, names: tuple[str, ...]) -> str | None:
         value = table.get(key)
         if value is None or value in names:
             return value
-        self._report(key, f"{key} is {value!r:.60}.{choices(str(value), names)}")
+        self._report(key, f"{key} is {_quote(value)}.{choices(str(value), names)}")
         return None
 
     def _names(self, table: dict[str, Any], key: str, label: str) -> tuple[str, ...]:
@@ -351,7 +371,7 @@ class _Reader:
         is_valid = isinstance(value, list) and len(value) <= MAX_COLUMNS
         if is_valid and all(isinstance(name, str) and len(name) <= MAX_NAME for name in value):
             return tuple(value)
-        self._report(key, f"{key} of {label} is {value!r:.60}; expected a list of texts")
+        self._report(key, f"{key} of {label} is {_quote(value)}; expected a list of texts")
         return ()
 
     def _numbers(self, table: dict[str, Any], key: str, label: str) -> tuple[float, ...]:
@@ -359,14 +379,14 @@ class _Reader:
         is_valid = isinstance(value, list) and len(value) <= MAX_COLUMNS
         if is_valid and all(_is_number(number) for number in value):
             return tuple(float(number) for number in value)
-        self._report(key, f"{key} of {label} is {value!r:.60}; expected a list of numbers")
+        self._report(key, f"{key} of {label} is {_quote(value)}; expected a list of numbers")
         return ()
 
     def _number(self, table: dict[str, Any], key: str, label: str) -> float:
         value = table.get(key, 0.0)
         if _is_number(value):
             return float(value)
-        self._report(key, f"{key} of {label} is {value!r:.60}; expected a number")
+        self._report(key, f"{key} of {label} is {_quote(value)}; expected a number")
         return 0.0
 
     def _unit(self, table: dict[str, Any], key: str, default: str, quantity: str | None) -> str:
@@ -400,5 +420,21 @@ class _Reader:
 
 
 def _is_number(value: object) -> bool:
-    is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    return is_number and abs(float(value)) < 1e6  # type: ignore[arg-type]
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e6
+
+
+def _quote(value: object) -> str:
+    """Return at most 60 letters of a value as text."""
+    try:
+        return f"{value!r:.60}"
+    except RecursionError:
+        return "a table of many levels"
+    except ValueError:
+        return "a number of thousands of digits"
+
+
+def _find_long_number(text: str) -> int | None:
+    """Return the line of the first number with more than `MAX_DIGITS` digits."""
+    pattern = re.compile(rf"[0-9_]{{{MAX_DIGITS + 1},}}")
+    lines = text.splitlines()
+    return next((row for row, line in enumerate(lines, start=1) if pattern.search(line)), None)

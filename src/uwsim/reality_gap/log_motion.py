@@ -7,7 +7,8 @@ from functools import cached_property
 import numpy as np
 
 from ..base.geometry import Array
-from ..logs import MotionSeries
+from ..errors import BadSetting
+from ..logs import MotionSeries, VehicleLog
 from ..logs.frames import multiply_quaternions, rotate_vectors_back
 from ..logs.samples import find_gaps
 from ..logs.smoothing import estimate_twists, make_continuous
@@ -16,28 +17,42 @@ from ..logs.smoothing import estimate_twists, make_continuous
 class LogMotion:
     """The motion of a log, linear between its samples; no orientation turns half around in one.
 
+    Samples without a whole position and twist are left out, and are gaps.
+
     Args:
-        motion: the motion, with positions in all samples.
+        motion: the motion.
     """
 
     def __init__(self, motion: MotionSeries) -> None:
-        self.times = motion.times
-        """The times of the samples, (n,) [s]."""
-        self._positions = motion.positions
-        self._quaternions = make_continuous(motion.quaternions)
         twists = motion.twists
         if twists is None:
             twists = estimate_twists(motion.times, motion.positions, motion.quaternions)
-        self._twists = twists
+        is_whole = np.isfinite(np.hstack([motion.positions, twists])).all(axis=1)
+        self.n_samples = len(is_whole)
+        """The number of samples of the log."""
+        self.n_left_out = int(len(is_whole) - is_whole.sum())
+        """The number of samples without a whole position and twist."""
+        self.times = motion.times[is_whole]
+        """The times of the other samples, (n,) [s]."""
+        self._positions, self._twists = motion.positions[is_whole], twists[is_whole]
+        self._quaternions = make_continuous(motion.quaternions[is_whole])
+        self._is_hole = np.diff(np.flatnonzero(is_whole)) > 1  # (n - 1,): samples are left out
 
     @cached_property
     def gaps(self) -> list[tuple[float, float]]:
-        """The beginning and the end of each gap [s]."""
-        return find_gaps(self.times)
+        """The beginning and the end of each gap, ascending [s]."""
+        holes = zip(self.times[:-1][self._is_hole], self.times[1:][self._is_hole], strict=True)
+        return sorted({*find_gaps(self.times), *((float(a), float(b)) for a, b in holes)})
+
+    @cached_property
+    def _gap_limits(self) -> Array:
+        limits: Array = np.array(self.gaps, dtype=np.float64).reshape(-1, 2)
+        return limits
 
     def has_gap(self, start: float, end: float) -> bool:
         """Return whether an interval overlaps a gap of the log."""
-        return any(start < gap_end and end > gap_start for gap_start, gap_end in self.gaps)
+        limits = self._gap_limits
+        return bool(((start < limits[:, 1]) & (end > limits[:, 0])).any())
 
     def positions(self, times: Array) -> Array:
         """Return the positions in L, (n, 3) [m]."""
@@ -66,6 +81,33 @@ class LogMotion:
 
     def _interpolate(self, times: Array, columns: Array) -> Array:
         return np.array([np.interp(times, self.times, column) for column in columns.T]).T
+
+
+def read_motion(log: VehicleLog) -> LogMotion:
+    """Return the motion of a log.
+
+    Raises:
+        BadSetting: the log has fewer than two samples with a whole position and twist.
+    """
+    motion = log.motion
+    if motion is None or len(motion.times) < 2:
+        raise BadSetting(
+            f"{log.path} has no motion of the vehicle; expected poses (odometry, or position and "
+            "orientation)."
+        )
+    n_samples = len(motion.times)
+    n_missing = int((~np.isfinite(motion.positions)).any(axis=1).sum())
+    if n_missing > n_samples - 2:
+        raise BadSetting(
+            f"{log.path} has {n_missing} of {n_samples} positions without all three coordinates; "
+            "the gap needs them."
+        )
+    log_motion = LogMotion(motion)
+    if len(log_motion.times) < 2:
+        raise BadSetting(
+            f"{log.path} has no twists, and too few poses to estimate them: {n_samples}."
+        )
+    return log_motion
 
 
 def relative_motion(

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..errors import BadSetting
-from ..logs import MotionSeries, VehicleLog
+from ..logs import VehicleLog
 from ..model.body_names import vehicle_body
 from ..model.scene_model import SceneModel
 from ..physics.compile_scene import compile_scene
@@ -21,7 +21,7 @@ from .autopilot_motors import name_motors
 from .coefficients import Coefficient, list_coefficients, scale_coefficient
 from .errors import HorizonError, choose_main_horizon, summarize_horizon
 from .gap import Gap
-from .log_motion import LogMotion, relative_motion
+from .log_motion import LogMotion, read_motion, relative_motion
 from .residuals import StepResiduals, choose_steps, measure_residuals
 from .sensor_residuals import SensorComparison, SensorResidual
 from .settings import GapSettings
@@ -78,12 +78,7 @@ class _Measurement:
         self._log, self._settings, self._model = log, settings, model
         self._progress: Progress = progress or (lambda title, total: nullcontext(lambda: None))
         self._remarks = list(log.remarks)
-        self._motion = LogMotion(_check_motion(log))
-        if not np.isfinite(self._motion.twists(self._motion.times)).all():
-            raise BadSetting(
-                f"{log.path} has no twists, and too few poses to estimate them: "
-                f"{len(self._motion.times)}."
-            )
+        self._motion = read_motion(log)
         self._scene = model.source
         self._index = find_vehicle(self._model, vehicle)
         self._name = self._model.scene.vehicles[self._index].name
@@ -103,6 +98,7 @@ class _Measurement:
             windows = choose_windows(
                 self._motion, commands.start, commands.end, settings.horizons, settings.n_windows
             )
+            self._remark_gaps(windows)
             horizons, curves, errors = self._compare(run, windows)
             tracks = self._draw_tracks(run, windows, horizons)
             residuals = self._measure_residuals(run)
@@ -129,6 +125,16 @@ class _Measurement:
             points_down=_points_down(self._model),
             remarks=tuple(self._remarks),
         )
+
+    def _remark_gaps(self, windows: Windows) -> None:
+        """State the samples and the windows that are left out."""
+        if self._motion.n_left_out:
+            self._remarks.append(
+                f"motion: {self._motion.n_left_out} of {self._motion.n_samples} samples without a "
+                "whole position or twist; windows that touch them are left out."
+            )
+        if windows.n_left_out:
+            self._remarks.append(f"windows that touch a gap, left out: {windows.n_left_out}.")
 
     def _compile(self, scene: SceneSpec) -> SceneModel:
         """Compile a variant of the scene."""
@@ -303,22 +309,6 @@ def make_run(simulation: Simulation, log: VehicleLog, index: int, motion: LogMot
     lags = [thruster.time_constant for thruster in model.dynamics[index].thrusters]
     commands = VehicleCommands(log, vehicle, lags)
     return VehicleRun(simulation, vehicle.name, motion, commands)
-
-
-def _check_motion(log: VehicleLog) -> MotionSeries:
-    motion = log.motion
-    if motion is None or len(motion.times) < 2:
-        raise BadSetting(
-            f"{log.path} has no motion of the vehicle; expected poses (odometry, or position and "
-            "orientation)."
-        )
-    n_missing = int((~np.isfinite(motion.positions)).any(axis=1).sum())
-    if n_missing:
-        raise BadSetting(
-            f"{log.path} has {n_missing} of {len(motion.times)} positions without all three "
-            "coordinates; the gap needs them."
-        )
-    return motion
 
 
 def _check_frame(log: VehicleLog, model: SceneModel) -> None:

@@ -24,6 +24,8 @@ class Windows:
     """The interval between windows [s]."""
     fits: dict[float, tuple[int, ...]]
     """The indices of the windows that have the log's motion to each horizon."""
+    n_left_out: int = 0
+    """The number of windows that touch a gap before the shortest horizon, and are left out."""
 
     def block_length(self, horizon: float) -> int:
         """Return the number of successive windows of which the motions overlap."""
@@ -63,12 +65,12 @@ def choose_windows(
         (motion.times >= first) & (motion.times <= end_time - horizons[0] + 1e-9)
     ]
     indices = np.clip(np.searchsorted(samples, times - TIME_TOLERANCE), 0, len(samples) - 1)
-    starts = np.unique(samples[indices])
-    starts = np.array([t for t in starts.tolist() if not motion.has_gap(t, t + horizons[0])])
+    candidates = np.unique(samples[indices]) if len(samples) else samples
+    starts = np.array([t for t in candidates.tolist() if not motion.has_gap(t, t + horizons[0])])
     if len(starts) < 2:
         raise BadSetting(
-            f"Gaps of the motion leave fewer than two windows of {horizons[0]:g} s. Choose "
-            "shorter --horizons."
+            f"Gaps of the motion and {motion.n_left_out} samples without a whole position or twist "
+            f"leave fewer than two windows of {horizons[0]:g} s. Choose shorter --horizons."
         )
     fits = {
         horizon: tuple(
@@ -78,4 +80,6 @@ def choose_windows(
         )
         for horizon in horizons
     }
-    return Windows(starts=starts, spacing=spacing, fits=fits)
+    return Windows(
+        starts=starts, spacing=spacing, fits=fits, n_left_out=len(candidates) - len(starts)
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from ..gap import Gap
 from .tables import axis_rows, cause_row, horizon_row, sensor_row
@@ -16,21 +17,21 @@ def print_gap(gap: Gap, console: Console) -> None:
         ("after", "windows", "RMS", "distance travelled", "ratio"),
     )
     for error in gap.horizons:
-        table.add_row(*horizon_row(error))
+        table.add_row(*map(Text, horizon_row(error)))
     console.print(table)
     for error in gap.horizons:
         table = _make_table(
             f"after {error.horizon:g} s", ("axis", "RMS", "bias", "simulated / measured")
         )
         for row in axis_rows(error):
-            table.add_row(*row)
+            table.add_row(*map(Text, row))
         console.print(table)
     if gap.attribution is not None and gap.attribution.causes:
         table = _make_table(
             "coefficients that explain the error", ("coefficient", "factor", "share", "confidence")
         )
         for cause in gap.attribution.causes:
-            table.add_row(*cause_row(cause)[:4])
+            table.add_row(*map(Text, cause_row(cause)[:4]))
         console.print(table)
     if gap.sensors:
         table = _make_table(
@@ -38,7 +39,7 @@ def print_gap(gap: Gap, console: Console) -> None:
             ("sensor", "quantity", "RMS", "bias", "deviation of readings"),
         )
         for residual in gap.sensors:
-            table.add_row(*sensor_row(residual))
+            table.add_row(*map(Text, sensor_row(residual)))
         console.print(table)
     for remark in gap.remarks:
         console.print(f"note: {remark}", markup=False, highlight=False)
