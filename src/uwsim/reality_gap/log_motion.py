@@ -28,9 +28,9 @@ class LogMotion:
         if twists is None:
             twists = estimate_twists(motion.times, motion.positions, motion.quaternions)
         is_whole = np.isfinite(np.hstack([motion.positions, twists])).all(axis=1)
-        self.n_samples = len(is_whole)
+        self.n_samples = len(motion.times)
         """The number of samples of the log."""
-        self.n_left_out = int(len(is_whole) - is_whole.sum())
+        self.n_left_out = self.n_samples - int(is_whole.sum())
         """The number of samples without a whole position and twist."""
         self.times = motion.times[is_whole]
         """The times of the other samples, (n,) [s]."""
