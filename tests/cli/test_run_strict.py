@@ -170,3 +170,11 @@ def test_options_that_contradict_each_other_are_errors(
 ) -> None:
     assert main(["run", write_scene(tmp_path, ""), "--for", "1s", *options]) == 2
     assert problem in capsys.readouterr().err
+
+
+def test_without_an_option_no_autopilot_is_waited_for(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = write_scene(tmp_path, "<u:ardupilot/> <u:px4> <name>px4</name> </u:px4>")
+    main(["run", scene, "--strict", "--for", "0.2s"])
+    assert "waiting for" not in capsys.readouterr().err

@@ -16,6 +16,8 @@ from ..model.dynamics import NameResolution
 from ..model.placement import set_on_floor
 from ..model.resolved_scene import ResolvedScene
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
+from ..scene.hydrodynamics.vehicle_file import read_vehicle_into
+from ..scene.hydrodynamics.vehicle_sets import find_vehicle
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec, has_floor_placement
 from ..scene.urdf.robot import RobotSpec
@@ -131,6 +133,22 @@ class CheckedScene(Subject):
     def names(self) -> NameResolution:
         """The resolution of the names in the hydrodynamics of the scene."""
         return NameResolution(self.resolved_scene, is_thorough=True)
+
+    def thruster_names(self, index: int) -> list[str] | None:
+        """Return the names of a vehicle's thrusters; None if its hydrodynamics are invalid.
+
+        The scene may have errors, unlike where `dynamics` is used.
+        """
+        vehicle = self.spec.vehicles[index]
+        if vehicle.dynamics is None:
+            return []
+        named_by = Path(self.spec.path) if self.spec.path else None
+        try:
+            path = find_vehicle(vehicle.dynamics, named_by)
+            dynamics = read_vehicle_into(path, None, Diagnostics(path))
+        except UwsimError:  # reported where the dynamics are checked
+            return None
+        return None if dynamics is None else [thruster.name for thruster in dynamics.thrusters]
 
     @property
     def dynamics(self) -> Mapping[int, VehicleHydrodynamics]:

@@ -21,7 +21,7 @@ from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.ardupilot_scene import connect_ardupilot, connect_mavlink, exchange_timestep
 from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
-from ..runs.planning.px4_scene import connect_px4
+from ..runs.planning.px4_scene import connect_px4, disconnect_autopilots
 from ..runs.program import load_program
 from ..runs.substituted_files import warn_of_substituted_files
 from ..world import TIMESTEP
@@ -146,12 +146,12 @@ def run(
 
 
 def connect_autopilots(spec: SceneSpec, options: ProgramOptions) -> SceneSpec:
-    """Return the scene with the elements of the autopilots that the options name."""
+    """Return the scene with the elements of the autopilots that the options name, and no others."""
     if options.ardupilot and options.px4:
         raise BadSetting("--ardupilot and --px4 exclude each other.")
     if options.ardupilot:
         return connect_mavlink(connect_ardupilot(spec))
-    return connect_px4(spec) if options.px4 else spec
+    return connect_px4(spec) if options.px4 else disconnect_autopilots(spec)
 
 
 def make_scene_topics(

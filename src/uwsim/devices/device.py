@@ -59,6 +59,10 @@ class DeviceTopic:
     """True if the device subscribes to the topic; otherwise it publishes on it."""
     rate: float | None = None
     """The rate of publication [Hz]; None: messages are published at events."""
+    message_type: type | None = None
+    """The type of the messages; None: not checked."""
+    element: str = ""
+    """The element of the device that names the topic; empty: the device derives the name."""
 
 
 @dataclass(frozen=True, kw_only=True)

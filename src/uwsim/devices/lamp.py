@@ -71,7 +71,7 @@ class LampSpec(DeviceSpec):
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topic that commands the brightness."""
-        return (DeviceTopic(name=self.brightness_topic, is_subscribed=True),)
+        return (DeviceTopic(name=self.brightness_topic, is_subscribed=True, message_type=Float64),)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MountedLamp:
         """Mount the lamp on its link; raise UnknownName if the vehicle has no such link."""

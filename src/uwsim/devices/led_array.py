@@ -64,7 +64,8 @@ class LedArraySpec(DeviceSpec):
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topics that switch the lamps on."""
         return tuple(
-            DeviceTopic(name=f"{self.name}/{colour}", is_subscribed=True) for colour in COLOURS
+            DeviceTopic(name=f"{self.name}/{colour}", is_subscribed=True, message_type=LedLight)
+            for colour in COLOURS
         )
 
     @property

@@ -62,7 +62,7 @@ class ObjectPickerSpec(DeviceSpec):
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topic that commands the release."""
-        return (DeviceTopic(name=self.release_topic, is_subscribed=True),)
+        return (DeviceTopic(name=self.release_topic, is_subscribed=True, message_type=Bool),)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ObjectPicker:
         """Mount the device on its link; raise UnknownName if the vehicle has no such link."""

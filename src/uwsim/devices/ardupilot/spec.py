@@ -80,8 +80,15 @@ class ArduPilotSpec(DeviceSpec):
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topics of the rangefinders and the battery."""
-        names = (*self.rangefinders, *([] if self.battery is None else [self.battery]))
-        return tuple(DeviceTopic(name=name, is_subscribed=True) for name in names)
+        topics: list[tuple[str, type, str]] = [
+            (name, Range, "rangefinder") for name in self.rangefinders
+        ]
+        if self.battery is not None:
+            topics.append((self.battery, BatteryState, "battery"))
+        return tuple(
+            DeviceTopic(name=name, is_subscribed=True, message_type=type_, element=element_name)
+            for name, type_, element_name in topics
+        )
 
     def count_steps(self, timestep: float) -> int:
         """Return the number of steps between exchanges."""

@@ -122,8 +122,11 @@ class _LinkOrigin:
 
 def packet_topics(name: str, *, has_energy: bool = False) -> tuple[DeviceTopic, ...]:
     """Return the topics of a device."""
-    packets = (DeviceTopic(name=f"{name}/tx", is_subscribed=True), DeviceTopic(name=f"{name}/rx"))
-    energy = DeviceTopic(name=f"{name}/energy", rate=ENERGY_RATE)
+    packets = (
+        DeviceTopic(name=f"{name}/tx", is_subscribed=True, message_type=UInt8MultiArray),
+        DeviceTopic(name=f"{name}/rx", message_type=UInt8MultiArray),
+    )
+    energy = DeviceTopic(name=f"{name}/energy", rate=ENERGY_RATE, message_type=Float64)
     return (*packets, energy) if has_energy else packets
 
 

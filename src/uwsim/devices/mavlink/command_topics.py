@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,17 +25,34 @@ STICK_NAMES = ("surge", "sway", "heave", "yaw", "pitch", "roll")
 """The numbers of a message of sticks, in their order; missing ones are 0."""
 SETPOINT_TIMEOUT = 0.5
 """The age up to which a velocity belongs to a position that follows it [s]."""
-COMMANDS = ("arm", "mode", "sticks", "setpoint_position", "setpoint_velocity")
-"""The last parts of the names of topics to which the device subscribes."""
-REPORTS = ("is_armed", "flight_mode", "status_text", "estimate")
-"""The last parts of the names of topics on which the device publishes."""
+COMMANDS: Mapping[str, type] = {
+    "arm": Bool,
+    "mode": String,
+    "sticks": Float64MultiArray,
+    "setpoint_position": PoseStamped,
+    "setpoint_velocity": TwistStamped,
+}
+"""The last part of the name, and the type, of each topic to which the device subscribes."""
+REPORTS: Mapping[str, type] = {
+    "is_armed": Bool,
+    "flight_mode": String,
+    "status_text": String,
+    "estimate": PoseStamped,
+}
+"""The last part of the name, and the type, of each topic on which the device publishes."""
 
 
 def command_topics(name: str) -> tuple[DeviceTopic, ...]:
     """Return the topics of a device of a name."""
     return (
-        *(DeviceTopic(name=f"{name}/{part}", is_subscribed=True) for part in COMMANDS),
-        *(DeviceTopic(name=f"{name}/{part}") for part in REPORTS),
+        *(
+            DeviceTopic(name=f"{name}/{part}", is_subscribed=True, message_type=type_)
+            for part, type_ in COMMANDS.items()
+        ),
+        *(
+            DeviceTopic(name=f"{name}/{part}", message_type=type_)
+            for part, type_ in REPORTS.items()
+        ),
     )
 
 

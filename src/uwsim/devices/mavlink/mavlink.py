@@ -104,8 +104,17 @@ class MavlinkSpec(DeviceSpec):
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """The topics of commands and reports."""
-        return command_topics(self.name)
+        """The topics of commands and reports, and of the sensors."""
+        sensors: tuple[tuple[str, str, type], ...] = (
+            ("dvl", self.dvl, DVL),
+            ("odometry", self.odometry, Odometry),
+            ("range", self.range, Range),
+        )
+        return command_topics(self.name) + tuple(
+            DeviceTopic(name=topic, is_subscribed=True, message_type=type_, element=element_name)
+            for element_name, topic, type_ in sensors
+            if topic
+        )
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MavlinkDevice:
         """Open the connection, if the simulation has any, and subscribe to the topics."""

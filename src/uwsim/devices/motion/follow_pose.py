@@ -79,7 +79,10 @@ class FollowPoseSpec(DeviceSpec):
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topic of the poses."""
-        return (DeviceTopic(name=self.topic, is_subscribed=True),) if self.topic else ()
+        if not self.topic:
+            return ()
+        message_type = Odometry if self.type == "odometry" else PoseStamped
+        return (DeviceTopic(name=self.topic, is_subscribed=True, message_type=message_type),)
 
     def describe_source_error(self) -> str | None:
         """Return the error of a missing or ambiguous source of poses; None if there is one."""

@@ -208,6 +208,14 @@ class LockStep:
             )
 
     def _describe_missing_start(self) -> str:
+        state = self.state
+        if state.n_invalid or state.n_skipped:
+            counts = f"{state.n_invalid} invalid answers and {state.n_skipped} bytes of no message"
+            return (
+                f"A program has connected to {self._address}, but has sent no valid "
+                f"HIL_ACTUATOR_CONTROLS within {self._limit:g} s: {counts}. Expected PX4, with "
+                "finite outputs."
+            )
         if not self._stream.is_connected:
             return f"PX4 has not connected to {self._address} within {self._limit:g} s."
         return (

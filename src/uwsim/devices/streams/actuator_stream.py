@@ -70,7 +70,9 @@ class ActuatorStreamSpec(DeviceSpec):
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topic of applied commands."""
-        return (DeviceTopic(name=self.topic),) if self.topic else ()
+        if not self.topic:
+            return ()
+        return (DeviceTopic(name=self.topic, message_type=Float64MultiArray, element="topic"),)
 
     def errors(self) -> list[str]:
         """Return the errors of epoch and address."""

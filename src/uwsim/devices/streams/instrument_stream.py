@@ -92,9 +92,21 @@ class InstrumentStreamSpec(DeviceSpec):
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topic of the sensor, and that of the bytes."""
-        topics = [DeviceTopic(name=self.topic, is_subscribed=True)] if self.topic else []
+        topics = []
+        if self.topic:
+            types = [FORMATS[name].message_type for name in self.formats if name in FORMATS]
+            sensor_topic = DeviceTopic(
+                name=self.topic,
+                is_subscribed=True,
+                message_type=types[0] if types else None,
+                element="topic",
+            )
+            topics.append(sensor_topic)
         if self.bytes_topic:
-            topics.append(DeviceTopic(name=self.bytes_topic))
+            bytes_topic = DeviceTopic(
+                name=self.bytes_topic, message_type=UInt8MultiArray, element="bytesTopic"
+            )
+            topics.append(bytes_topic)
         return tuple(topics)
 
     def errors(self) -> list[str]:

@@ -38,6 +38,14 @@ def connect_px4(scene: SceneSpec) -> SceneSpec:
     return replace(scene, vehicles=tuple(vehicles))
 
 
+def disconnect_autopilots(scene: SceneSpec) -> SceneSpec:
+    """Return a scene without ``<u:ardupilot>`` and ``<u:px4>``, which would wait for a program."""
+    vehicles = tuple(
+        remove_parts(remove_parts(vehicle, ArduPilotSpec), Px4Spec) for vehicle in scene.vehicles
+    )
+    return replace(scene, vehicles=vehicles)
+
+
 def remove_parts(vehicle: VehicleSpec, kind: type) -> VehicleSpec:
     """Return a vehicle without the parts of a kind."""
     parts = tuple(part for part in vehicle.parts if not isinstance(part, kind))
