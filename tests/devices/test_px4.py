@@ -221,11 +221,12 @@ def test_a_px4_that_does_not_connect_ends_the_run() -> None:
 
 
 def test_a_program_that_is_no_px4_is_named_when_the_run_ends() -> None:
-    port = find_free_port()
+    port, is_over = find_free_port(), threading.Event()
 
     def request() -> None:
         with connect(port) as connection:
             connection.sendall(b"GET / HTTP/1.0\r\n\r\n")
+            is_over.wait(60.0)
 
     spec = Px4Spec(relative_to="base_link", port=port, limit=1.0)
     with open_scene(scene_with(spec), udp_address="127.0.0.1", is_blind=True) as simulation:
@@ -233,6 +234,7 @@ def test_a_program_that_is_no_px4_is_named_when_the_run_ends() -> None:
         thread.start()
         with pytest.raises(ClientLost, match=r"A program has connected .* 18 bytes of no message"):
             simulation.advance()
+        is_over.set()
         thread.join()
 
 
