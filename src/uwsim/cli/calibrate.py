@@ -13,7 +13,7 @@ from ..base.terminal import clean_text
 from ..errors import BadSetting
 from .exit_status import RUN_FAILED
 from .options.help_texts import INPUT, OUTPUT, option
-from .options.options import JsonOption
+from .options.options import JsonOption, OutputOption
 from .output.console import standard_output
 
 SetupArgument = Annotated[
@@ -78,9 +78,7 @@ class CalibrateOptions:
 class CalibrationOutput:
     """The directory of the calibration."""
 
-    out: Annotated[Path, option(OUTPUT, "--out", "-o", metavar="DIR", help="Output directory.")] = (
-        Path("calibration")
-    )
+    out: OutputOption = Path("calibration")
     overwrite: Annotated[
         bool, option(OUTPUT, "--overwrite", help="Replace an earlier calibration in --out.")
     ] = False

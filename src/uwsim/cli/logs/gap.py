@@ -11,7 +11,7 @@ import typer
 from ...base.terminal import clean_text, print_warnings
 from ...errors import BadSetting, ErrorCollector
 from ..options.help_texts import INPUT, OUTPUT, option
-from ..options.options import DataPathOption, JsonOption, SettingOptions
+from ..options.options import DataPathOption, JsonOption, OutputOption, SettingOptions
 from ..output.console import standard_output
 from ..output.progress import progress
 from ..render import load_scene
@@ -87,9 +87,7 @@ class GapOptions:
 class GapOutput:
     """The directory of the gap."""
 
-    out: Annotated[Path, option(OUTPUT, "--out", "-o", metavar="DIR", help="Output directory.")] = (
-        Path("gap")
-    )
+    out: OutputOption = Path("gap")
     overwrite: Annotated[
         bool, option(OUTPUT, "--overwrite", help="Replace an earlier gap in --out.")
     ] = False

@@ -11,7 +11,7 @@ import typer
 from ...base.terminal import clean_text
 from ...errors import BadSetting, ErrorCollector
 from ..options.help_texts import INPUT, OUTPUT, SEARCH, option
-from ..options.options import JsonOption
+from ..options.options import JsonOption, OutputOption
 from ..output.console import standard_output
 
 if TYPE_CHECKING:
@@ -130,9 +130,7 @@ class FitOptions:
 class IdentificationOutput:
     """The directory of an identification."""
 
-    out: Annotated[Path, option(OUTPUT, "--out", "-o", metavar="DIR", help="Output directory.")] = (
-        Path("identification")
-    )
+    out: OutputOption = Path("identification")
     overwrite: Annotated[
         bool, option(OUTPUT, "--overwrite", help="Replace an earlier identification in --out.")
     ] = False

@@ -10,10 +10,9 @@ import typer
 
 from ...base.terminal import warn
 from ...errors import BadSetting, ErrorCollector
-from ..options.completion import complete_names
 from ..options.help_texts import INPUT, OUTPUT, RUN, option
 from ..options.options import DataPathOption
-from ..options.virtual import GAP_POLICIES
+from ..options.virtual import GAP_POLICIES, GapsOption, MaxGapOption
 
 if TYPE_CHECKING:
     from ...devices.motion.pose_track import GapPolicy
@@ -109,28 +108,8 @@ class PartOptions:
             INPUT, "--to", metavar="SECONDS", help="Time in the log of the end [the last pose]."
         ),
     ] = None
-    gaps: Annotated[
-        str,
-        option(
-            INPUT,
-            "--gaps",
-            metavar="hold|interpolate|refuse",
-            help="Between poses more than --max-gap apart: hold the last one, move on uniformly, "
-            "or refuse the log.",
-            autocompletion=complete_names(GAP_POLICIES),
-        ),
-    ] = "hold"
-    max_gap: Annotated[
-        float,
-        option(
-            INPUT,
-            "--max-gap",
-            metavar="SECONDS",
-            help="The longest time between two poses that is no gap.",
-            min=0.001,
-            max=1e6,
-        ),
-    ] = 1.0
+    gaps: GapsOption = "hold"
+    max_gap: MaxGapOption = 1.0
     levels: Annotated[
         str | None,
         option(

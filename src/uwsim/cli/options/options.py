@@ -109,6 +109,9 @@ DataPathOption = Annotated[
     ),
 ]
 
+OutputOption = Annotated[
+    Path, option(OUTPUT, "--out", "-o", metavar="DIR", help="Output directory.")
+]
 JsonOption = Annotated[bool, option(OUTPUT, "--json", help="Only JSON on stdout, for programs.")]
 
 ModeOption = Annotated[

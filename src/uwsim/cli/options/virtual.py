@@ -17,6 +17,30 @@ if TYPE_CHECKING:
     from ...virtual_sensors import ComposedCamera, ImageComposition
 
 GAP_POLICIES = ("hold", "interpolate", "refuse")
+GapsOption = Annotated[
+    str,
+    option(
+        INPUT,
+        "--gaps",
+        metavar="hold|interpolate|refuse",
+        help="Between poses more than --max-gap apart: hold the last one, move on uniformly, "
+        "or refuse the log.",
+        autocompletion=complete_names(GAP_POLICIES),
+    ),
+]
+"""The treatment of gaps in the poses of a log."""
+MaxGapOption = Annotated[
+    float,
+    option(
+        INPUT,
+        "--max-gap",
+        metavar="SECONDS",
+        help="The longest time between two poses that is no gap.",
+        min=0.001,
+        max=1e6,
+    ),
+]
+"""The longest time between two poses that is no gap [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,28 +74,8 @@ class FollowLogOptions:
             help="Mapping file of the log: columns, topics, units and frames.",
         ),
     ] = None
-    gaps: Annotated[
-        str,
-        option(
-            INPUT,
-            "--gaps",
-            metavar="hold|interpolate|refuse",
-            help="Between poses more than --max-gap apart: hold the last one, move on uniformly, "
-            "or refuse the log.",
-            autocompletion=complete_names(GAP_POLICIES),
-        ),
-    ] = "hold"
-    max_gap: Annotated[
-        float,
-        option(
-            INPUT,
-            "--max-gap",
-            metavar="SECONDS",
-            help="The longest time between two poses that is no gap.",
-            min=0.001,
-            max=1e6,
-        ),
-    ] = 1.0
+    gaps: GapsOption = "hold"
+    max_gap: MaxGapOption = 1.0
 
     def check(self, scene: str | None, errors: ErrorCollector) -> None:
         """Collect the errors of the options."""

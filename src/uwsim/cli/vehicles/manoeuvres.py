@@ -10,7 +10,7 @@ import typer
 
 from ...base.terminal import clean_text
 from ..options.help_texts import INPUT, OUTPUT, option
-from ..options.options import JsonOption
+from ..options.options import JsonOption, OutputOption
 from ..output.console import standard_output
 from ..output.progress import progress
 
@@ -57,9 +57,7 @@ class ManoeuvreOptions:
 class ReportOutput:
     """The directory of the report."""
 
-    out: Annotated[Path, option(OUTPUT, "--out", "-o", metavar="DIR", help="Output directory.")] = (
-        Path("manoeuvres")
-    )
+    out: OutputOption = Path("manoeuvres")
     overwrite: Annotated[
         bool, option(OUTPUT, "--overwrite", help="Replace an earlier report in --out.")
     ] = False
