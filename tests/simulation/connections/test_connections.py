@@ -122,3 +122,15 @@ def test_an_invalid_address_is_an_error_that_states_the_form(
 ) -> None:
     with pytest.raises(UwsimError, match=expected.replace("?", r"\?")):
         connections.open(address)
+
+
+def test_the_system_probes_a_silent_peer(connections: OpenConnections) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        port = probe.getsockname()[1]
+    stream = connections.open(f"tcpin:127.0.0.1:{port}")
+    with socket.create_connection(("127.0.0.1", port)):
+        wait_until(lambda: stream.is_connected)
+        connection = vars(stream)["_socket"]
+        assert connection.getsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE)
+        if hasattr(socket, "TCP_KEEPIDLE"):
+            assert connection.getsockopt(socket.IPPROTO_TCP, socket.TCP_KEEPIDLE) == 5

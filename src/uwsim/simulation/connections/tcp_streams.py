@@ -15,6 +15,9 @@ RETRY_PERIOD = 0.2
 """The wall time between two attempts to connect [s]."""
 CONNECT_TIMEOUT = 1.0
 """The wall time after which an attempt to connect has failed [s]."""
+KEEP_ALIVE = {"TCP_KEEPIDLE": 5, "TCP_KEEPINTVL": 2, "TCP_KEEPCNT": 3}
+"""The options by which the connection to a peer that is gone without a word ends after 11 s, so
+that it can connect again: silence before a probe [s], the time between probes [s], their number."""
 
 
 class TcpStream:
@@ -70,6 +73,10 @@ class TcpStream:
         connection.setblocking(False)
         with suppress(OSError):
             connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        with suppress(OSError, AttributeError):  # AttributeError: an option that a system lacks
+            connection.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+            for name, value in KEEP_ALIVE.items():
+                connection.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
         self._send_buffer.clear()
         self._socket = connection
 
