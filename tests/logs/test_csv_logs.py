@@ -96,6 +96,16 @@ def test_a_heading_of_ros_is_the_heading_of_a_compass(yaw: float) -> None:
     assert down == pytest.approx(1.0)
 
 
+def test_thruster_commands_beyond_their_range_are_remarked(tmp_path: Path) -> None:
+    mapping = MAPPING.replace('unit = "pwm"\nsigns', 'unit = "1"\nsigns')
+    remarks = read(tmp_path, TABLE, mapping).remarks
+    assert (
+        "commands.thrusters: 2 of 2 samples are beyond -1 to 1, up to 1900; is the unit right?"
+        in remarks
+    )
+    assert not any("beyond" in remark for remark in read(tmp_path, TABLE, MAPPING).remarks)
+
+
 def test_all_mistakes_of_a_table_are_reported_with_their_lines(tmp_path: Path) -> None:
     table = "time,x,y,z,qw,qx,qy,qz,thrusters.a\n0,1,2,3,1,0,0,0,0.5\n1,a,2,3,1,0,0,0\n"
     table += "2,1,2,inf,1,0,0,0,k\n"

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 from ..errors import BadSetting, Diagnostic, choices
 from .csv_log import LogError, read_csv_log
@@ -11,6 +14,8 @@ from .vehicle_log import VehicleLog
 
 SUFFIXES = (".csv", ".mcap", ".bag", ".db3", ".bin", ".tlog")
 """The suffixes of logs."""
+MAX_COMMAND = 1.01
+"""The greatest command of a thruster without a remark: 1, and rounding."""
 
 
 def read_log(
@@ -30,12 +35,15 @@ def read_log(
     Raises:
         UwsimError: the log or the mapping file is invalid; the error has all mistakes of the file.
     """
-    file = Path(path)
+    log = _read_format(Path(path), mapping, vehicle or "")
+    return replace(log, remarks=(*log.remarks, *_describe_commands(log)))
+
+
+def _read_format(file: Path, mapping: str | Path | LogMapping | None, name: str) -> VehicleLog:
     log_mapping = read_mapping(Path(mapping)) if isinstance(mapping, str | Path) else mapping
     if not file.exists():
         raise LogError([Diagnostic(file=str(file), line=None, message="does not exist")])
     suffix = file.suffix.lower()
-    name = vehicle or ""
     if suffix == ".csv":
         return read_csv_log(file, log_mapping, name)
     if file.is_dir() or suffix in (".mcap", ".bag", ".db3"):
@@ -53,3 +61,16 @@ def read_log(
     raise BadSetting(
         f"{file}: {suffix or 'no suffix'} is not a format of logs.{choices(suffix, SUFFIXES)}"
     )
+
+
+def _describe_commands(log: VehicleLog) -> list[str]:
+    """Return a remark for thruster commands beyond the range -1 to 1."""
+    remarks = []
+    for part in log.commands:
+        n_beyond = int((np.abs(part.values) > MAX_COMMAND).any(axis=1).sum())
+        if part.kind == "thrusters" and n_beyond:
+            remarks.append(
+                f"commands.thrusters: {n_beyond} of {len(part.times)} samples are beyond -1 to 1, "
+                f"up to {float(np.nanmax(np.abs(part.values))):.4g}; is the unit right?"
+            )
+    return remarks
