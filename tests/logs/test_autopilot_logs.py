@@ -101,6 +101,8 @@ def test_our_reader_reads_what_the_library_of_the_autopilot_reads(path: Path) ->
     their_records = []
     while (record := reader.recv_match(type=["XKF1", "RCOU", "PARM"])) is not None:
         their_records.append((record.get_type(), record.to_dict()))
+    reader.data_map.close()
+    reader.filehandle.close()  # it closes neither itself
     our_records = list(read_messages(path, ["XKF1", "RCOU", "PARM"], []))
     assert [name for name, _ in our_records] == [name for name, _ in their_records]
     for (_, fields), (_, other) in zip(our_records, their_records, strict=True):
