@@ -12,7 +12,7 @@ from ...base.terminal import warn
 from ...errors import BadSetting, ErrorCollector
 from ..options.help_texts import INPUT, OUTPUT, RUN, option
 from ..options.options import DataPathOption
-from ..options.virtual import GAP_POLICIES, GapsOption, MaxGapOption
+from ..options.virtual import GAP_POLICIES, GapsOption, MappingOption, MaxGapOption
 
 if TYPE_CHECKING:
     from ...devices.motion.pose_track import GapPolicy
@@ -83,15 +83,7 @@ class MissionOptions:
             help="The vehicle of the scene [that of the log's name, or the first].",
         ),
     ] = None
-    mapping: Annotated[
-        Path | None,
-        option(
-            INPUT,
-            "--mapping",
-            metavar="FILE.toml",
-            help="Mapping file of the log: columns, topics, units and frames.",
-        ),
-    ] = None
+    mapping: MappingOption = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -43,6 +43,18 @@ MaxGapOption = Annotated[
 """The longest time between two poses that is no gap [s]."""
 
 
+MappingOption = Annotated[
+    Path | None,
+    option(
+        INPUT,
+        "--mapping",
+        metavar="FILE.toml",
+        help="Mapping file of the log: columns, topics, units and frames.",
+    ),
+]
+"""The mapping file of a log."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class FollowLogOptions:
     """The options of a vehicle that follows a log."""
@@ -65,15 +77,7 @@ class FollowLogOptions:
             help="The vehicle that follows the log [that of the log's name, or the first].",
         ),
     ] = None
-    mapping: Annotated[
-        Path | None,
-        option(
-            INPUT,
-            "--mapping",
-            metavar="FILE.toml",
-            help="Mapping file of the log: columns, topics, units and frames.",
-        ),
-    ] = None
+    mapping: MappingOption = None
     gaps: GapsOption = "hold"
     max_gap: MaxGapOption = 1.0
 

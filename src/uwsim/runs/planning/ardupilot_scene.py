@@ -12,7 +12,7 @@ from ...devices.px4 import Px4Spec
 from ...errors import BadSetting
 from ...scene.spec import SceneSpec
 from ...world import TIMESTEP
-from .px4_scene import remove_parts
+from .px4_scene import add_autopilot, remove_parts
 
 MAVLINK_PORT, PORTS_PER_INSTANCE = 5762, 10
 """The TCP port of ArduPilot's second serial port, and the distance to that of the next instance."""
@@ -33,15 +33,7 @@ def connect_ardupilot(scene: SceneSpec, *, ends_on_restart: bool = False) -> Sce
         BadSetting: no vehicle has dynamics, or two vehicles have one port.
     """
     vehicles = [remove_parts(vehicle, Px4Spec) for vehicle in scene.vehicles]
-    if not any(vehicle.parts_of(ArduPilotSpec) for vehicle in vehicles):
-        indices = [i for i, vehicle in enumerate(vehicles) if vehicle.dynamics is not None]
-        if not indices:
-            raise BadSetting(
-                "--ardupilot: no vehicle of the scene has <u:dynamics>, which thrusters need."
-            )
-        first_vehicle = vehicles[indices[0]]
-        parts = (*first_vehicle.parts, ArduPilotSpec())
-        vehicles[indices[0]] = replace(first_vehicle, parts=parts)
+    vehicles = add_autopilot(vehicles, ArduPilotSpec(), option="--ardupilot")
     if ends_on_restart:
         vehicles = [
             replace(

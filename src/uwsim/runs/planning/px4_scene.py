@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ...devices.ardupilot import ArduPilotSpec
+from ...devices.device import DeviceSpec
 from ...devices.px4 import Px4Spec
 from ...errors import BadSetting
 from ...scene.spec import SceneSpec
@@ -20,14 +22,7 @@ def connect_px4(scene: SceneSpec) -> SceneSpec:
         BadSetting: no vehicle has dynamics, or two vehicles have one port.
     """
     vehicles = [remove_parts(vehicle, ArduPilotSpec) for vehicle in scene.vehicles]
-    if not any(vehicle.parts_of(Px4Spec) for vehicle in vehicles):
-        indices = [i for i, vehicle in enumerate(vehicles) if vehicle.dynamics is not None]
-        if not indices:
-            raise BadSetting(
-                "--px4: no vehicle of the scene has <u:dynamics>, which thrusters need."
-            )
-        first_vehicle = vehicles[indices[0]]
-        vehicles[indices[0]] = replace(first_vehicle, parts=(*first_vehicle.parts, Px4Spec()))
+    vehicles = add_autopilot(vehicles, Px4Spec(), option="--px4")
     ports = [spec.port for vehicle in vehicles for spec in vehicle.parts_of(Px4Spec)]
     for port in ports:
         if ports.count(port) > 1:
@@ -36,6 +31,24 @@ def connect_px4(scene: SceneSpec) -> SceneSpec:
                 "4560 plus the number of the instance of PX4."
             )
     return replace(scene, vehicles=tuple(vehicles))
+
+
+def add_autopilot(
+    vehicles: Sequence[VehicleSpec], autopilot: DeviceSpec, *, option: str
+) -> list[VehicleSpec]:
+    """Return the vehicles; if none has such an autopilot, the first one with dynamics gets it.
+
+    Raises:
+        BadSetting: no vehicle has dynamics.
+    """
+    connected_vehicles = list(vehicles)
+    if any(vehicle.parts_of(type(autopilot)) for vehicle in vehicles):
+        return connected_vehicles
+    for i, vehicle in enumerate(vehicles):
+        if vehicle.dynamics is not None:
+            connected_vehicles[i] = replace(vehicle, parts=(*vehicle.parts, autopilot))
+            return connected_vehicles
+    raise BadSetting(f"{option}: no vehicle of the scene has <u:dynamics>, which thrusters need.")
 
 
 def disconnect_autopilots(scene: SceneSpec) -> SceneSpec:
