@@ -12,8 +12,8 @@ import typer
 from ..base.terminal import clean_text
 from ..errors import BadSetting
 from .exit_status import RUN_FAILED
-from .options.help_texts import INPUT, OUTPUT, option
-from .options.options import JsonOption, OutputOption
+from .options.help_texts import INPUT, option
+from .options.options import JsonOption, OutputOption, OverwriteOption
 from .output.console import standard_output
 
 SetupArgument = Annotated[
@@ -79,9 +79,7 @@ class CalibrationOutput:
     """The directory of the calibration."""
 
     out: OutputOption = Path("calibration")
-    overwrite: Annotated[
-        bool, option(OUTPUT, "--overwrite", help="Replace an earlier calibration in --out.")
-    ] = False
+    overwrite: OverwriteOption = False
 
 
 def calibrate(

@@ -12,7 +12,7 @@ import typer
 
 from ..base.terminal import clean_text
 from .options.help_texts import COMPARISON, OUTPUT, option
-from .options.options import JsonOption
+from .options.options import JsonOption, OverwriteOption
 from .output.console import standard_output
 
 Results = Annotated[
@@ -66,9 +66,7 @@ class ComparisonOutput:
     out: Annotated[Path, option(OUTPUT, "--out", metavar="DIR", help="Output directory.")] = Path(
         "comparison"
     )
-    overwrite: Annotated[
-        bool, option(OUTPUT, "--overwrite", help="Replace an earlier comparison in --out.")
-    ] = False
+    overwrite: OverwriteOption = False
 
 
 def compare(

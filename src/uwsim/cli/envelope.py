@@ -17,7 +17,14 @@ from ..runs.planning.plan_request import PlanRequest
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, SEARCH, option
 from .options.levels import read_levels
-from .options.options import CodeOptions, SettingOptions, TaskOptions, WorkerOptions, make_request
+from .options.options import (
+    CodeOptions,
+    OverwriteOption,
+    SettingOptions,
+    TaskOptions,
+    WorkerOptions,
+    make_request,
+)
 from .output.progress import progress
 
 if TYPE_CHECKING:
@@ -132,9 +139,7 @@ class EnvelopeOptions:
         option(OUTPUT, "--out", metavar="DIR", help="Output directory [./NAME.envelope]."),
     ] = None
     resume: Annotated[bool, option(OUTPUT, "--resume", help="Reuse the runs in --out.")] = False
-    overwrite: Annotated[
-        bool, option(OUTPUT, "--overwrite", help="Replace an earlier envelope in --out.")
-    ] = False
+    overwrite: OverwriteOption = False
     code: CodeOptions
 
     @property

@@ -10,8 +10,14 @@ import typer
 
 from ...base.terminal import clean_text, print_warnings
 from ...errors import BadSetting, ErrorCollector
-from ..options.help_texts import INPUT, OUTPUT, option
-from ..options.options import DataPathOption, JsonOption, OutputOption, SettingOptions
+from ..options.help_texts import INPUT, option
+from ..options.options import (
+    DataPathOption,
+    JsonOption,
+    OutputOption,
+    OverwriteOption,
+    SettingOptions,
+)
 from ..output.console import standard_output
 from ..output.progress import progress
 from ..render import load_scene
@@ -88,9 +94,7 @@ class GapOutput:
     """The directory of the gap."""
 
     out: OutputOption = Path("gap")
-    overwrite: Annotated[
-        bool, option(OUTPUT, "--overwrite", help="Replace an earlier gap in --out.")
-    ] = False
+    overwrite: OverwriteOption = False
 
 
 def gap(

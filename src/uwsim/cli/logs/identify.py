@@ -10,8 +10,8 @@ import typer
 
 from ...base.terminal import clean_text
 from ...errors import BadSetting, ErrorCollector
-from ..options.help_texts import INPUT, OUTPUT, SEARCH, option
-from ..options.options import JsonOption, OutputOption
+from ..options.help_texts import INPUT, SEARCH, option
+from ..options.options import JsonOption, OutputOption, OverwriteOption
 from ..output.console import standard_output
 
 if TYPE_CHECKING:
@@ -131,9 +131,7 @@ class IdentificationOutput:
     """The directory of an identification."""
 
     out: OutputOption = Path("identification")
-    overwrite: Annotated[
-        bool, option(OUTPUT, "--overwrite", help="Replace an earlier identification in --out.")
-    ] = False
+    overwrite: OverwriteOption = False
 
 
 def identify(

@@ -112,6 +112,10 @@ DataPathOption = Annotated[
 OutputOption = Annotated[
     Path, option(OUTPUT, "--out", "-o", metavar="DIR", help="Output directory.")
 ]
+OverwriteOption = Annotated[
+    bool,
+    option(OUTPUT, "--overwrite", help="Replace earlier files of this command in --out."),
+]
 JsonOption = Annotated[bool, option(OUTPUT, "--json", help="Only JSON on stdout, for programs.")]
 
 ModeOption = Annotated[

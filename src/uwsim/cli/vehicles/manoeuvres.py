@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...base.terminal import clean_text
-from ..options.help_texts import INPUT, OUTPUT, option
-from ..options.options import JsonOption, OutputOption
+from ..options.help_texts import INPUT, option
+from ..options.options import JsonOption, OutputOption, OverwriteOption
 from ..output.console import standard_output
 from ..output.progress import progress
 
@@ -58,9 +58,7 @@ class ReportOutput:
     """The directory of the report."""
 
     out: OutputOption = Path("manoeuvres")
-    overwrite: Annotated[
-        bool, option(OUTPUT, "--overwrite", help="Replace an earlier report in --out.")
-    ] = False
+    overwrite: OverwriteOption = False
 
 
 def manoeuvres(
