@@ -178,7 +178,7 @@ def test_a_name_twice_and_a_sign_of_zero_are_errors_of_a_mapping(tmp_path: Path)
         read_mapping(path)
     text = str(error.value)
     assert "map.toml:3: names of [commands.thrusters] has 'port' twice" in text
-    assert "map.toml:4: signs of [commands.thrusters] has 0, which removes a command" in text
+    assert "map.toml:4: signs of [commands.thrusters] has 0; expected -1 or 1" in text
 
 
 def test_the_template_is_a_valid_mapping(tmp_path: Path) -> None:
@@ -268,3 +268,59 @@ def test_a_file_of_no_known_format_is_an_error(name: str, tmp_path: Path) -> Non
         (tmp_path / name).write_text("x")
     with pytest.raises(UwsimError, match=r"is not a format|does not exist"):
         read_log(tmp_path / name)
+
+
+BOAT = """
+[motion]
+position = ["x", "y", 0]
+rpy = [0, 0, "heading"]
+velocity = ["u", "v", 0]
+angular_velocity = [0, 0, "r"]
+[commands.thrusters]
+columns = ["port", "starboard"]
+"""
+BOAT_TABLE = "time,x,y,heading,u,v,r,port,starboard\n" + "".join(
+    f"{k},{0.5 * k},0,0.1,0.5,0,0,0.2,0.2\n" for k in range(5)
+)
+
+
+def test_a_number_in_place_of_a_column_is_a_constant(tmp_path: Path) -> None:
+    motion = read(tmp_path, BOAT_TABLE, BOAT).motion
+    assert motion is not None
+    assert motion.twists is not None
+    np.testing.assert_array_equal(motion.positions[:, 2], 0.0)
+    np.testing.assert_array_equal(motion.twists[0], [0.5, 0.0, 0.0, 0.0, 0.0, 0.0])
+    assert motion.twist_source == "log"
+    assert motion.is_planar
+
+
+def test_a_log_with_a_depth_is_not_planar(tmp_path: Path) -> None:
+    table = BOAT_TABLE.replace("heading", "heading,z").replace(",0.1,0.5", ",0.1,{k},0.5")
+    lines = [line.replace("{k}", str(k)) for k, line in enumerate(table.splitlines())]
+    motion = read(tmp_path, "\n".join(lines), BOAT.replace('"y", 0', '"y", "z"')).motion
+    assert motion is not None
+    assert not motion.is_planar
+
+
+def test_columns_with_two_places_wrong_signs_and_delays_are_reported_at_once(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "map.toml"
+    path.write_text(
+        '[motion]\nposition = ["x", "x", "z"]\nrpy = [0, "z", true]\n'
+        '[commands.thrusters]\ncolumns = ["a", "a"]\nnames = ["port", "port"]\nsigns = [5, -1]\n'
+        "delay = -5\n"
+        '[sensors.dvl]\nkind = "dvl"\ncolumns = ["z", "z"]\n'
+    )
+    with pytest.raises(MappingError) as error:
+        read_mapping(path)
+    lines = sorted(str(mistake).split("map.toml:")[1] for mistake in error.value.diagnostics)
+    assert lines == [
+        "11: columns of [sensors.dvl] has 'z' twice",
+        "2: position of [motion] has 'x' twice",
+        "3: rpy of [motion] is [0, 'z', True]; expected a list of texts, or numbers for constants",
+        "5: columns of [commands.thrusters] has 'a' twice",
+        "6: names of [commands.thrusters] has 'port' twice",
+        "7: signs of [commands.thrusters] has 5; expected -1 or 1",
+        "8: delay of [commands.thrusters] is -5; expected 0 to 10 s",
+    ]

@@ -9,7 +9,8 @@
 from __future__ import annotations
 
 from .csv_log import LogError, write_csv_log
-from .mapping import LogMapping, MappingError, read_mapping
+from .mapping import LogMapping
+from .mapping_reader import MappingError, read_mapping
 from .read_log import SUFFIXES, read_log
 from .vehicle_log import CommandSeries, MotionSeries, SensorSeries, VehicleLog
 

@@ -226,7 +226,7 @@ def _make_commands(
                 )
         values = values[:, [channels[column] for column in spec.columns]]
         values = values * np.array(spec.signs or [1.0] * len(spec.columns))
-        names, times = spec.names or spec.columns, times + spec.delay
+        names, times = spec.names or spec.columns, times + spec.delay + spec.clock_offset
     is_complete = np.isfinite(values).all(axis=1)
     if not names or not is_complete.any():
         return ()

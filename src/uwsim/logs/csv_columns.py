@@ -16,6 +16,7 @@ from typing import get_args
 
 from .mapping import (
     SENSOR_KINDS,
+    Column,
     CommandMapping,
     FrameMapping,
     LogMapping,
@@ -91,14 +92,15 @@ def derive_mapping(header: Sequence[str]) -> LogMapping:
 def list_columns(mapping: LogMapping) -> list[str]:
     """Return all columns that a mapping names, each once, the time first."""
     motion = mapping.motion
-    groups: Iterable[tuple[str, ...]] = (
+    groups: Iterable[tuple[Column, ...]] = (
         (mapping.time.column,),
         *(motion.position, motion.quaternion, motion.rpy),
         *(motion.velocity, motion.angular_velocity),
         *(command.columns for command in mapping.commands.values()),
         *(sensor.columns for sensor in mapping.sensors.values()),
     )
-    return list(dict.fromkeys(column for group in groups for column in group if column))
+    names = (column for group in groups for column in group if isinstance(column, str) and column)
+    return list(dict.fromkeys(names))
 
 
 def name_columns(log: VehicleLog) -> list[str]:
@@ -131,7 +133,7 @@ def template_text(header: Sequence[str]) -> str:
         'body = "frd"                     # frd, flu, or base: the base of the URDF',
         "",
         "[motion]",
-        'position = ["x", "y", "z"]       # "" for a column that the log lacks',
+        'position = ["x", "y", "z"]       # "": no such column; a number: a constant',
         'position_unit = "m"',
         'rpy = ["roll", "pitch", "yaw"]   # or quaternion = ["qw", "qx", "qy", "qz"]',
         'angle_unit = "rad"               # rad, deg',
@@ -143,7 +145,7 @@ def template_text(header: Sequence[str]) -> str:
         'columns = ["t1", "t2"]',
         "names = []                       # of the vehicle's thrusters, in the order of columns",
         'unit = "1"                       # 1: from -1 to 1; %; pwm: 1100 to 1900 us',
-        "signs = []                       # -1 for a reversed propeller",
+        "signs = []                       # 1, or -1 for a reversed propeller",
         "",
         "# [sensors.dvl]",
         '# kind = "dvl"                   # imu, dvl, pressure, gps, range, battery',

@@ -16,6 +16,7 @@ from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
+import numpy.typing as npt
 
 from ..base.files.input_files import compute_hash, read_document
 from ..base.geometry import Array
@@ -24,7 +25,7 @@ from .assemble import check_content, make_motion
 from .csv_columns import COMMAND_UNITS, SENSOR_UNITS, derive_mapping, list_columns, name_columns
 from .frames import convert_body_vectors, quaternions_from_rpy
 from .limits import MAX_COLUMNS, MAX_DIAGNOSTICS, MAX_SAMPLES, MAX_TEXT_BYTES, MAX_VALUE
-from .mapping import CommandMapping, LogMapping, SensorMapping
+from .mapping import Column, CommandMapping, LogMapping, SensorMapping
 from .samples import ClockReset, Samples
 from .units import SI_UNITS, UNITS, find_unit
 from .vehicle_log import CommandKind, CommandSeries, MotionSeries, SensorSeries, VehicleLog
@@ -233,12 +234,14 @@ class _Builder:
             remarks=tuple(self._remarks),
         )
 
-    def _stack(self, names: Sequence[str], unit: str) -> Array:
+    def _stack(self, names: Sequence[Column], unit: str) -> Array:
         conversion = UNITS[unit]
         columns = [self._column(name) for name in names]
         return conversion.apply(np.array(columns, dtype=np.float64).T)
 
-    def _column(self, name: str) -> Array:
+    def _column(self, name: Column) -> Array:
+        if not isinstance(name, str):
+            return np.full(len(self._times), name)
         if not name:
             return np.full(len(self._times), np.nan)
         return self._table.columns[name]
@@ -259,8 +262,8 @@ class _Builder:
             quaternions = self._stack(motion.quaternion, "1")
         elif motion.rpy:
             angles = self._stack(motion.rpy, motion.angle_unit)
-            if not all(motion.rpy):  # the log of a surface craft may have the heading alone
-                angles[:, [not name for name in motion.rpy]] = 0.0
+            if "" in motion.rpy:  # the log of a surface craft may have the heading alone
+                angles[:, [name == "" for name in motion.rpy]] = 0.0
                 self._remarks.append("motion: an angle has no column; it counts as 0.")
             quaternions = quaternions_from_rpy(angles)
         else:
@@ -276,6 +279,8 @@ class _Builder:
         values = np.hstack(parts)
         # rows of other series have no orientation, which is no defect
         values[~np.isfinite(values[:, 3:7]).all(axis=1)] = np.nan
+        if all(not isinstance(name, str) for name in (*motion.quaternion, *motion.rpy)):
+            values[~self._has_position()] = np.nan
         times, values = self._select(values, "motion", is_motion=True)
         return make_motion(
             times,
@@ -289,6 +294,14 @@ class _Builder:
             origin=frames.origin,
         )
 
+    def _has_position(self) -> npt.NDArray[np.bool_]:
+        """Return whether each row has a number in a column of the position, (n,)."""
+        has_position = np.zeros(len(self._times), dtype=np.bool_)
+        for name in self._mapping.motion.position:
+            if isinstance(name, str) and name:
+                has_position |= np.isfinite(self._table.columns[name])
+        return has_position
+
     def _make_commands(self, kind: CommandKind, spec: CommandMapping) -> CommandSeries:
         values = self._stack(spec.columns, spec.unit or COMMAND_UNITS[kind] or "1")
         if spec.signs:
@@ -301,7 +314,7 @@ class _Builder:
         return CommandSeries(
             kind=kind,
             names=spec.names or spec.columns,
-            times=times[is_complete] + spec.delay,
+            times=times[is_complete] + spec.delay + spec.clock_offset,
             values=values[is_complete],
         )
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..errors import BadSetting, Diagnostic, choices
 from .csv_log import LogError, read_csv_log
-from .mapping import LogMapping, read_mapping
+from .mapping import LogMapping
+from .mapping_reader import read_mapping
 from .vehicle_log import VehicleLog
 
 SUFFIXES = (".csv", ".mcap", ".bag", ".db3", ".bin", ".tlog")

@@ -271,7 +271,7 @@ def _make_commands(kind: Any, times: Any, values: Any, mapping: LogMapping) -> C
             )
         names = spec.names or spec.columns
         values = values * (spec.signs or 1.0)
-        times = times + spec.delay
+        times = times + spec.delay + spec.clock_offset
     return CommandSeries(kind=command_kind, names=names, times=times, values=values)
 
 

@@ -11,11 +11,16 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Literal
 
+import numpy as np
+
 from ..base.geometry import Array
 from ..errors import BadSetting
 
 CommandKind = Literal["thrusters", "fins", "wrench", "twist"]
 """The kind of commands: thrusters [-1 to 1], fins [rad], wrench [N, N m], twist [m/s, rad/s]."""
+
+PLANAR_TOLERANCE = 1e-9
+"""The change of a constant depth [m] or of the tilt of a quaternion by rounding."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,6 +42,13 @@ class MotionSeries:
         _check_shapes(self.times, positions=(self.positions, 3), quaternions=(self.quaternions, 4))
         if self.twists is not None:
             _check_shapes(self.times, twists=(self.twists, 6))
+
+    @property
+    def is_planar(self) -> bool:
+        """True if depth, roll and pitch are constants, as those of a surface craft without them."""
+        depths, tilts = self.positions[:, 2], self.quaternions[:, 1:3]
+        is_one_depth = bool((np.abs(depths - depths[:1]) < PLANAR_TOLERANCE).all())
+        return is_one_depth and bool((np.abs(tilts) < PLANAR_TOLERANCE).all())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
