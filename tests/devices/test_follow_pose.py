@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 import socket
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,6 +23,7 @@ from uwsim.devices.motion.pose_filter import (
     FilterSettings,
     MeasuredPose,
     PoseFilter,
+    format_report,
     summarize_delays,
 )
 from uwsim.errors import BadSetting
@@ -57,6 +60,52 @@ def odometry(x: float, y: float = 0.0, z: float = 0.0, *, speed: float = 0.0) ->
 
 def find_follower(simulation: Simulation) -> PoseFollower:
     return next(d for d in simulation.world.devices if isinstance(d, PoseFollower))
+
+
+def test_a_stamp_that_is_no_time_is_counted_and_gives_no_delay() -> None:
+    filter = PoseFilter(FilterSettings())
+    for i, stamp in enumerate((1000.0, 0.0, -1.0, 2.0**64 * 1e-6, math.nan, 1000.04)):
+        pose = Pose(np.array([0.01 * i, 0.0, 0.0]), np.eye(3))
+        assert filter.accept(MeasuredPose(pose, 0.01 * i, stamp))
+    delays = summarize_delays(filter.state)
+    assert delays is not None
+    assert (delays.n, delays.is_bounded) == (2, True)
+    assert (filter.state.n_received, filter.state.n_invalid_stamps) == (6, 4)
+    lines = format_report("rov", filter.state)
+    assert "4 poses with an invalid stamp" in lines[2]
+    assert "delay above the smallest (-1000.000 s" in lines[3]
+
+
+def test_a_report_says_that_delays_exceed_its_bins() -> None:
+    filter = PoseFilter(FilterSettings())
+    for i, stamp in enumerate((1000.0, 5.0, 1e9)):
+        filter.accept(MeasuredPose(Pose.identity(), 0.01 * i, stamp))
+    line = format_report("rov", filter.state)[-1]
+    assert line.endswith("or more: stamps differ by more than 1 s")
+
+
+def test_bytes_that_are_no_mavlink_are_counted_and_reported(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    scene = follower_scene(tmp_path, topic="", mavlink_port=port)
+    with open_scene(scene, udp_address="127.0.0.1") as simulation:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as attacker:
+            for _ in range(2000):
+                attacker.sendto(b"x" * 500, ("127.0.0.1", port))
+        simulation.advance(0.5)
+        report = find_follower(simulation).report
+        state = find_follower(simulation).state.mavlink
+        assert state is not None
+    assert report[-1].startswith("rov: 0 MAVLink messages; ")
+    lines = capsys.readouterr().err
+    assert "are no MAVLink; they are skipped" in lines
+    if sys.platform == "linux":
+        match = re.search(r"(\d+) datagrams dropped", lines)
+        n_dropped = int(match[1]) if match else 0
+        assert state.stream.n_invalid_bytes + 500 * n_dropped == 1_000_000
 
 
 def test_the_vehicle_is_where_the_pose_says_at_the_next_step(tmp_path: Path) -> None:

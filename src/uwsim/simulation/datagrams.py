@@ -5,7 +5,9 @@ from __future__ import annotations
 import socket
 from collections.abc import Callable, Sequence
 
+from ..base.terminal import warn
 from ..errors import UwsimError
+from .connections.drop_counts import DropCounter
 
 MAX_BYTES = 2048
 """The maximum size of a datagram [bytes]; a longer one is cut."""
@@ -49,8 +51,11 @@ class Datagrams:
         return lambda: _receive_datagrams(port_socket)
 
     def close(self) -> None:
-        """Close all ports."""
+        """Close all ports, and print how many datagrams the system has dropped."""
         for port_socket in self._sockets:
+            if n_dropped := DropCounter(port_socket).n_dropped:
+                host, port = port_socket.getsockname()
+                warn(f"UDP {host}:{port}: {n_dropped} datagrams dropped, as the queue was full")
             port_socket.close()
         self._sockets.clear()
 

@@ -59,6 +59,10 @@ class DatagramPort(Protocol):
     def receive_others(self, limit: int) -> Sequence[tuple[bytes, Address]]:
         """Return datagrams of other senders than the peer, ``limit`` at most."""
 
+    @property
+    def n_dropped(self) -> int:
+        """The number of datagrams that the system dropped, as those of others filled a queue."""
+
     def send(self, data: bytes) -> bool:
         """Send a datagram to the peer; return False if there is none or it was not sent."""
 
@@ -71,7 +75,8 @@ class Connections(Protocol):
 
         Args:
             address: ``tcp:HOST:PORT`` connects to a server, and again if it is lost;
-                ``tcpin:HOST:PORT`` waits for one client; ``udpout:HOST:PORT`` sends datagrams to
+                ``tcpin:HOST:PORT`` waits for one client, which a newer one replaces if it is
+                silent; ``udpout:HOST:PORT`` sends datagrams to
                 an address; ``udpin:HOST:PORT`` receives them, and answers the last sender;
                 ``serial:PATH:BIT_RATE`` is a serial line; ``pty`` or ``pty:LINK`` is a
                 pseudo-terminal, with a symbolic link to it.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import socket
 import struct
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -156,7 +157,8 @@ def test_hostile_datagrams_neither_stop_nor_slow_the_exchange() -> None:
                 attacker.sendto(bad[i % len(bad)], ("127.0.0.1", port))
             simulation.advance(0.5)
         exchange = link_of(simulation).state.exchange
-        assert exchange.n_others > 100
+        n_counted = exchange.n_others + exchange.n_dropped
+        assert n_counted > (4000 if sys.platform == "linux" else 100)
         assert exchange.n_exchanges == 220
         assert (exchange.n_invalid, exchange.n_restarts) == (0, 0)
         assert "of other senders" in link_of(simulation).describe()

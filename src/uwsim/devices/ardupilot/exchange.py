@@ -66,12 +66,15 @@ class ExchangeState(Record):
     n_invalid: int = 0
     """The number of datagrams of the wrong size or with the wrong magic."""
     n_others: int = 0
-    """The number of datagrams of other senders, as far as they were read."""
+    """The number of datagrams of other senders that were read."""
+    n_dropped: int = 0
+    """The number of datagrams of other senders that the system dropped, as their queue was full."""
 
     @property
     def has_events(self) -> bool:
         """True if packets were lost, repeated or invalid."""
-        return any((self.n_duplicates, self.n_lost, self.n_restarts, self.n_invalid, self.n_others))
+        counts = (self.n_duplicates, self.n_lost, self.n_restarts, self.n_invalid)
+        return any((*counts, self.n_others, self.n_dropped))
 
 
 class Exchange:
@@ -191,17 +194,21 @@ class Exchange:
 
     def _receive_from_new_sender(self) -> tuple[bytes, tuple[str, int]] | None:
         """Return a packet of another sender than the silent one; None if there is none."""
-        packets = [
+        peer = self._port.peer
+        datagrams = [
             (data, sender)
             for data, sender in self._port.receive_others(MAX_SEARCHED)
-            if sender != self._port.peer and read_servo_packet(data) is not None
+            if sender != peer
         ]
+        packets = [datagram for datagram in datagrams if read_servo_packet(datagram[0]) is not None]
+        self.state.n_others += len(datagrams) - bool(packets)
         return packets[-1] if packets else None
 
     def _count_others(self) -> None:
         peer = self._port.peer
         datagrams = self._port.receive_others(MAX_COUNTED)
         self.state.n_others += sum(sender != peer for _, sender in datagrams)
+        self.state.n_dropped = self._port.n_dropped
 
     def _report_wait(self, silence: float) -> bool:
         """Report the first wait at once, a later one after the silence of a new start."""
@@ -235,7 +242,7 @@ class Exchange:
             "lost": state.n_lost,
             "new starts": state.n_restarts,
             "invalid": state.n_invalid,
-            "of other senders": state.n_others,
+            "of other senders": state.n_others + state.n_dropped,
         }
         events = ", ".join(f"{name} {n}" for name, n in counts.items() if n)
         return f"ArduPilot on {self.place}: {state.n_exchanges} frames" + (

@@ -31,6 +31,7 @@ from ...base.external_values import EXPECTED_POSE, read_pose
 from ...base.geometry import Pose
 from ...base.numerics.linear import rotate_back
 from ...base.record import Record
+from ...base.terminal import report
 from ...bus import Remark
 from ...errors import BadSetting
 from ...messages import Odometry, PoseStamped, seconds
@@ -116,6 +117,8 @@ class PoseFollowerState(Record):
     """True if the vehicle has been placed at a pose."""
     mavlink: PoseReaderState | None = None
     """The state of the reader of MAVLink messages; None without a port."""
+    n_reported_bytes: int = 0
+    """The number of bytes of no message when they were last reported."""
 
 
 class PoseFollower(Device):
@@ -160,7 +163,14 @@ class PoseFollower(Device):
     @property
     def report(self) -> list[str]:
         """The lines of the report about the received poses."""
-        return format_report(self._vehicle.name, self.state.filter)
+        lines = format_report(self._vehicle.name, self.state.filter)
+        if self.state.mavlink is not None:
+            reader = self.state.mavlink.stream
+            lines.append(
+                f"{self._vehicle.name}: {reader.n_messages} MAVLink messages; "
+                f"{reader.n_invalid_bytes} bytes of no message, or too many to read"
+            )
+        return lines
 
     def receive_odometry(self, message: Odometry) -> None:
         """Store the pose and the twist of a message; an invalid pose is counted."""
@@ -205,6 +215,19 @@ class PoseFollower(Device):
                     pose.time,
                     pose.twist,
                 )
+        self._report_invalid_bytes()
+
+    def _report_invalid_bytes(self) -> None:
+        """Report the first bytes of no message, and whenever there are ten times as many."""
+        assert self.state.mavlink is not None
+        n_bytes = self.state.mavlink.stream.n_invalid_bytes
+        if n_bytes > 10 * self.state.n_reported_bytes:
+            self.state.n_reported_bytes = n_bytes
+            port = self.spec.mavlink_port
+            report(
+                f"{self._vehicle.name}: {n_bytes} bytes at UDP port {port} are no MAVLink; they "
+                "are skipped"
+            )
 
     def animate(self, time: float) -> None:
         """Place the vehicle at its predicted pose at a time [s]."""

@@ -14,7 +14,7 @@ Not modelled: acceleration during the prediction, and the noise of the poses.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -31,6 +31,8 @@ N_CONSISTENT_JUMPS = 5
 """The number of consecutive poses at a new place after which the vehicle is moved there."""
 MAX_TURN_RATE = 20.0
 """The greatest angular velocity that is used for prediction [rad/s]."""
+MAX_STAMP = 1e10
+"""The greatest time that is taken for a stamp [s]: the year 2286 after 1970."""
 MIN_INTERVAL = 1e-3
 """The shortest interval from which a velocity is computed [s]."""
 DELAY_BIN = 0.001
@@ -87,6 +89,8 @@ class PoseFilterState(Record):
     """The number of poses left out because too many arrived in one step."""
     n_relocations: int = 0
     """The number of times that the vehicle was moved to a new place."""
+    n_invalid_stamps: int = 0
+    """The number of poses whose stamp was 0, negative or after `MAX_STAMP`; they have no delay."""
     n_timeouts: int = 0
     """The number of times that the poses became stale."""
     longest_silence: float = 0.0
@@ -126,6 +130,9 @@ class PoseFilter:
         if state.n_in_step > MAX_POSES_PER_STEP:
             state.n_excess += 1
             return False
+        if pose.stamp is not None and not 0.0 < pose.stamp <= MAX_STAMP:
+            state.n_invalid_stamps += 1
+            pose = replace(pose, stamp=None)
         self._count_delay(pose)
         last_pose = state.last_pose
         if last_pose is not None and not self._is_reachable(last_pose, pose):
@@ -245,6 +252,8 @@ class DelayStatistics:
     """The 95th percentile of the delay above the smallest [s]."""
     max_delay: float
     """The greatest delay above the smallest [s]."""
+    is_bounded: bool
+    """True if all delays differ from the first one by less than the bins cover."""
 
 
 def summarize_delays(state: PoseFilterState) -> DelayStatistics | None:
@@ -266,6 +275,7 @@ def summarize_delays(state: PoseFilterState) -> DelayStatistics | None:
         median_delay=quantile(0.5),
         high_delay=quantile(0.95),
         max_delay=(int(bins[-1]) - first) * DELAY_BIN,
+        is_bounded=first > 0 and int(bins[-1]) < N_DELAY_BINS - 1,
     )
 
 
@@ -277,11 +287,17 @@ def format_report(name: str, state: PoseFilterState) -> list[str]:
         "place",
         f"{name}: stale {state.n_timeouts} times; longest silence {state.longest_silence:.3f} s",
     ]
+    if state.n_invalid_stamps:
+        lines.append(
+            f"{name}: {state.n_invalid_stamps} poses with an invalid stamp, 0 or after the year "
+            "2286, used as if they had none"
+        )
     delays = summarize_delays(state)
     if delays is not None:
+        limit_note = "" if delays.is_bounded else ", or more: stamps differ by more than 1 s"
         lines.append(
             f"{name}: delay above the smallest ({delays.min_delay:.3f} s by both clocks): median "
             f"{1e3 * delays.median_delay:.0f} ms, 95 % {1e3 * delays.high_delay:.0f} ms, greatest "
-            f"{1e3 * delays.max_delay:.0f} ms"
+            f"{1e3 * delays.max_delay:.0f} ms{limit_note}"
         )
     return lines

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from ...base.terminal import warn
 from ...errors import UwsimError
 from ...world import ByteStream
 from ...world.addresses import parse_address
 from .datagram_port import PeerPort
 from .serial_streams import PseudoTerminal, SerialStream
-from .tcp_streams import TcpClient, TcpServer
+from .tcp_server import TcpServer
+from .tcp_streams import TcpClient
 from .udp_streams import UdpStream
 
 
@@ -52,8 +54,10 @@ class OpenConnections:
         return peer_port
 
     def close(self) -> None:
-        """Close all streams and ports."""
+        """Close all streams and ports, and print their unusual events."""
         for stream in self._streams:
+            if isinstance(stream, TcpServer | UdpStream) and stream.events:
+                warn(stream.events)
             stream.close()
         self._streams.clear()
 

@@ -7,6 +7,7 @@ import socket
 from collections.abc import Sequence
 
 from ...world import Address
+from .drop_counts import DropCounter
 
 MAX_BYTES = 2048
 """The maximum size of a received datagram [bytes]; a longer one is cut."""
@@ -29,6 +30,7 @@ class PeerPort:
         self._open_socket = socket.socket(family, socket.SOCK_DGRAM)
         self._peer_socket: socket.socket | None = None
         self._peer: Address | None = None
+        self._drops = DropCounter(self._open_socket)
         try:
             self._open_socket.setblocking(False)
             self._open_socket.bind(address)
@@ -90,6 +92,11 @@ class PeerPort:
         while len(datagrams) < limit and (data := _receive(self._open_socket)) is not None:
             datagrams.append(data)
         return datagrams
+
+    @property
+    def n_dropped(self) -> int:
+        """The number of datagrams that the system dropped, as those of others filled a queue."""
+        return self._drops.n_dropped
 
     def send(self, data: bytes) -> bool:
         """Send a datagram to the peer; return False if there is none or it was not sent."""

@@ -1,4 +1,4 @@
-"""Streams of bytes over TCP: a client that connects again, and a server of one client."""
+"""Streams of bytes over TCP, and a client that connects again."""
 
 from __future__ import annotations
 
@@ -122,44 +122,5 @@ class TcpClient(TcpStream):
         """Close the connection; connect no more."""
         self._is_closed.set()
         self._thread.join(timeout=CONNECT_TIMEOUT + RETRY_PERIOD)
-        if self._socket is not None:
-            self._drop(self._socket)
-
-
-class TcpServer(TcpStream):
-    """A TCP server of one client at a time; others wait until that client has left."""
-
-    def __init__(self, host: str, port: int) -> None:
-        super().__init__()
-        self._listener = socket.create_server((host, port), backlog=1)
-        self._listener.setblocking(False)
-
-    @property
-    def is_connected(self) -> bool:
-        """True if a client is connected."""
-        self._accept(0.0)
-        return self._socket is not None
-
-    def receive(self, timeout: float = 0.0) -> bytes:
-        """Return bytes that have arrived; wait for a client or bytes for ``timeout`` [s]."""
-        self._accept(timeout)
-        return super().receive(timeout)
-
-    def send(self, data: bytes) -> bool:
-        """Send all of ``data`` or nothing; return False if no client is connected or reads."""
-        self._accept(0.0)
-        return super().send(data)
-
-    def _accept(self, timeout: float) -> None:
-        if self._socket is not None:
-            return
-        with suppress(OSError, ValueError):
-            if timeout > 0.0:
-                select.select([self._listener], [], [], timeout)
-            self._adopt(self._listener.accept()[0])
-
-    def close(self) -> None:
-        """Close the connection and the port."""
-        self._listener.close()
         if self._socket is not None:
             self._drop(self._socket)

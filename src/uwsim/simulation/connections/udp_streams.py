@@ -5,6 +5,8 @@ from __future__ import annotations
 import select
 import socket
 
+from .drop_counts import DropCounter
+
 MAX_BYTES = 65536
 """The greatest size of a datagram [bytes]."""
 
@@ -33,11 +35,20 @@ class UdpStream:
             self._socket.close()
             raise
         self._is_bound = is_bound
+        self._name, self._drops = f"UDP {host}:{port}", DropCounter(self._socket)
 
     @property
     def is_connected(self) -> bool:
         """True if the address of the peer is known."""
         return self._peer is not None
+
+    @property
+    def events(self) -> str:
+        """The number of datagrams that the system dropped; empty if there are none."""
+        n_dropped = self._drops.n_dropped
+        return f"{self._name}: {n_dropped} datagrams dropped, as the queue was full" * (
+            n_dropped > 0
+        )
 
     def receive(self, timeout: float = 0.0) -> bytes:
         """Return the next datagram; wait for it for ``timeout`` [s] at most; empty if none."""
