@@ -1,4 +1,4 @@
-"""The equations of motion of Prestero's thesis (2001) on the REMUS, for an independent integrator.
+r"""The equations of motion of Prestero's thesis (2001) on the REMUS, for an independent integrator.
 
 Prestero, Verification of a six-degree of freedom simulation model for the REMUS autonomous
 underwater vehicle, MSc thesis, MIT and WHOI 2001: the equations with the combined ("total")
@@ -34,6 +34,15 @@ from uwsim.messages import (
 M, W, B, ZG = 299.0 / 9.81, 299.0, 306.0, 0.0196
 IXX, IYY, IZZ = 0.177, 3.45, 3.45
 THRUST, TORQUE = 3.86, -0.543
+FIN_LIFT, FIN_ARM = 9.64, 0.638
+"""The lift of a pair of fins over u^2 and angle [kg/m], and its distance behind the origin [m]."""
+FINS = (
+    (np.array([-FIN_ARM, 0.0, -0.11]), True),
+    (np.array([-FIN_ARM, 0.0, 0.11]), True),
+    (np.array([-FIN_ARM, -0.11, 0.0]), False),
+    (np.array([-FIN_ARM, 0.11, 0.0]), False),
+)
+"""The places of the fins [m]; True: a rudder."""
 LENGTH = 1.33  # [m]
 MASS = np.array(
     [
@@ -50,6 +59,8 @@ U, V, WW, P, Q, R, X, Y, Z, PHI, THETA, PSI = range(12)
 
 Commands = Callable[[float, np.ndarray], tuple[float, float, float]]
 """A function of time [s] and state that returns rudder, stern planes [rad], propeller (1 or -1)."""
+StateRate = Callable[[np.ndarray, float, float, float], np.ndarray]
+"""A function of state, rudder, stern planes [rad] and propeller that returns the state's rate."""
 
 
 def state_rate(state: np.ndarray, rudder: float, planes: float, propeller: float) -> np.ndarray:
@@ -87,8 +98,36 @@ def state_rate(state: np.ndarray, rudder: float, planes: float, propeller: float
     return np.concatenate([np.linalg.solve(MASS, forces), velocities])
 
 
+def foil_rate(state: np.ndarray, rudder: float, planes: float, propeller: float) -> np.ndarray:
+    """Return the rate of the state with foils in place of the published, linear fins.
+
+    A foil pushes by L = S a (delta - atan2(v, u)) V^2, normal to the flow (u, v) at its place.
+    """
+    rate = state_rate(state, rudder, planes, propeller)
+    u, v, w, _, q, r = state[:6]
+    side = FIN_LIFT * (u * u * rudder - u * v + FIN_ARM * u * r)
+    down = -FIN_LIFT * (u * u * planes + u * w + FIN_ARM * u * q)
+    change = -np.array([0.0, side, down, 0.0, FIN_ARM * down, -FIN_ARM * side])
+    for place, is_rudder in FINS:
+        flow = state[:3] + np.cross(state[3:6], place)
+        across = flow[1] if is_rudder else -flow[2]
+        angle = rudder if is_rudder else planes
+        speed = math.hypot(flow[0], across)
+        lift = 0.5 * FIN_LIFT * (angle - math.atan2(across, flow[0])) * speed
+        along, normal = -lift * across, lift * flow[0]
+        force = np.array([along, normal, 0.0] if is_rudder else [along, 0.0, -normal])
+        change += np.concatenate([force, np.cross(place, force)])
+    rate[:6] += np.linalg.solve(MASS, change)
+    return rate
+
+
 def simulate(
-    commands: Commands, duration: float, *, speed: float = 1.54, interval: float = 0.02
+    commands: Commands,
+    duration: float,
+    *,
+    speed: float = 1.54,
+    interval: float = 0.02,
+    rate: StateRate = state_rate,
 ) -> np.ndarray:
     """Integrate from level motion at ``speed``; commands change at each interval.
 
@@ -99,27 +138,34 @@ def simulate(
     state[U] = speed
     rows = [np.concatenate([[0.0], state])]
     for k in range(round(duration / interval)):
-        state = advance(state, commands(k * interval, state), interval)
+        state = advance(state, commands(k * interval, state), interval, rate=rate)
         rows.append(np.concatenate([[(k + 1) * interval], state]))
     return np.array(rows)
 
 
 def advance(
-    state: np.ndarray, commands: tuple[float, float, float], interval: float, n: int = 2
+    state: np.ndarray,
+    commands: tuple[float, float, float],
+    interval: float,
+    n: int = 2,
+    rate: StateRate = state_rate,
 ) -> np.ndarray:
     """Return the state after an interval with constant commands, by n steps of RK4."""
     h = interval / n
     for _ in range(n):
-        k1 = state_rate(state, *commands)
-        k2 = state_rate(state + 0.5 * h * k1, *commands)
-        k3 = state_rate(state + 0.5 * h * k2, *commands)
-        k4 = state_rate(state + h * k3, *commands)
+        k1 = rate(state, *commands)
+        k2 = rate(state + 0.5 * h * k1, *commands)
+        k3 = rate(state + 0.5 * h * k2, *commands)
+        k4 = rate(state + h * k3, *commands)
         state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
     return state
 
 
 def run_program(
-    node: ManoeuvreNode, parameters: Mapping[str, float | str], time_limit: float
+    node: ManoeuvreNode,
+    parameters: Mapping[str, float | str],
+    time_limit: float,
+    rate: StateRate = state_rate,
 ) -> tuple[ManoeuvreTrack, ManoeuvreNode]:
     """Let a manoeuvring algorithm steer the equations, by messages alone, and return the track."""
     desk = FakeNode(parameters=parameters)
@@ -138,7 +184,7 @@ def run_program(
                 thrust = min(max(message.wrench.force.x, -THRUST), THRUST)
                 commands = (commands[0], commands[1], thrust / THRUST)
         rows.append(sample_of(desk.now, state, node.rudder))
-        state = advance(state, commands, INTERVAL)
+        state = advance(state, commands, INTERVAL, rate=rate)
         desk.now += INTERVAL
     assert node.begin_time is not None
     return make_track(np.array(rows), node.begin_time, LENGTH), node
