@@ -11,7 +11,9 @@ from pathlib import Path
 
 import pytest
 
+import uwsim as package
 from tests.support.ardupilot_stub import Stub, free_port
+from tests.support.pid_autopilot import PidAutopilot, square_path
 from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main as uwsim
 from uwsim.devices.ardupilot import ArduPilotSpec
@@ -117,3 +119,14 @@ def test_a_recording_is_kept_when_ardupilot_falls_silent(tmp_path: Path) -> None
         words = ["--for", "1s", "--set", limit, "--record", str(recording), "--images", "none"]
         assert run(*words, port=port) != 0
     assert recording.stat().st_size > 1000
+
+
+def test_a_recording_holds_the_commands_that_ardupilot_applied(tmp_path: Path) -> None:
+    port, recording = free_port(), tmp_path / "run.mcap"
+    with Stub(port, PidAutopilot(square_path(0.5, 1.5, 0.2)), timeout=30.0):
+        words = ["--for", "5s", "--record", str(recording), "--images", "none"]
+        assert run(*words, port=port) == 0
+    gap = package.gap(recording, "bluerov2-scene", windows=3, horizons=(1,), attribution=False)
+    (horizon,) = gap.horizons
+    assert horizon.distance.value < 2e-3  # with steps of 2 ms instead of 2.5 ms [m]
+    assert horizon.distance.value < 0.02 * horizon.path_length

@@ -20,6 +20,7 @@ from uwsim.devices.ardupilot.spec import ArduPilotSpec
 from uwsim.devices.px4 import Px4Spec
 from uwsim.devices.px4.px4 import BLUEROV2_MOTORS, Motors, Px4
 from uwsim.errors import BadSetting, ClientLost, UnknownName, UwsimError
+from uwsim.messages import Float64MultiArray
 from uwsim.runs.planning.ardupilot_scene import connect_ardupilot
 from uwsim.runs.planning.px4_scene import connect_px4
 from uwsim.scene.reader import read_scene
@@ -73,6 +74,18 @@ def test_each_step_of_px4_is_answered_once_at_its_time() -> None:
     times = [sensor.time_usec for sensor in px4.sensors]
     assert len(times) == STEPS // 2  # 250 Hz, steps of 2 ms
     assert set(np.diff(times)) == {4000}
+
+
+def test_the_applied_commands_are_published_at_each_answer() -> None:
+    port, messages = find_free_port(), []
+    with open_simulation(port) as simulation:
+        simulation.bus.subscribe("bluerov2/autopilot/thrusters", Float64MultiArray, messages.append)
+        px4 = Px4Stub(port, lambda _: FORWARD)
+        for _ in range(20):
+            simulation.advance()
+    px4.join()
+    assert len(messages) == 10
+    assert messages[-1].data.tolist() == [0.5] * 4 + [0.0] * 4
 
 
 def test_two_runs_exchange_the_same_bytes() -> None:

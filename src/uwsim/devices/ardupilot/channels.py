@@ -16,6 +16,7 @@ import numpy as np
 
 from ...autopilots.ardupilot import PwmCurve, read_pwm_curve
 from ...autopilots.ardupilot.pwm import DEFAULT_CURVE
+from ...base.geometry import Array
 from ...errors import SceneError, UnknownName, UwsimError
 from ...messages import Float64
 from ...schema import Numbers, Spec, diagnostic_at, element
@@ -85,14 +86,23 @@ class HoldingOutput:
 
 
 class ServoOutputs:
-    """The channels of an autopilot that drive something."""
+    """The channels of an autopilot that drive something.
+
+    Args:
+        vehicle: the vehicle.
+        thrusters: the channels that drive thrusters.
+        holding_outputs: the channels that drive lamps and joints.
+        publish: the function that publishes the applied command of each thruster; None: none does.
+    """
 
     def __init__(
         self,
         vehicle: Vehicle,
         thrusters: Sequence[ThrusterOutput],
         holding_outputs: Sequence[HoldingOutput],
+        publish: Callable[[Array], None] | None = None,
     ) -> None:
+        self._publish = publish
         self._vehicle, self._thrusters = vehicle, tuple(thrusters)
         self._holding_outputs = tuple(holding_outputs)
         self._n_thrusters = len(vehicle.thrusters)
@@ -107,6 +117,8 @@ class ServoOutputs:
                 if thruster.channel < n:
                     commands[thruster.thruster] = thruster.curve.command(pwm[thruster.channel])
             autopilot.set_thrusters(commands)
+            if self._publish is not None:
+                self._publish(commands)
         for output in self._holding_outputs:
             width = pwm[output.channel] if output.channel < n else 0
             is_known = output.channel < len(last_pwm)
@@ -115,9 +127,18 @@ class ServoOutputs:
 
 
 def bind_channels(
-    channels: Sequence[ChannelSpec], world: DeviceWorld, vehicle: DeviceVehicle
+    channels: Sequence[ChannelSpec],
+    world: DeviceWorld,
+    vehicle: DeviceVehicle,
+    publish: Callable[[Array], None] | None = None,
 ) -> ServoOutputs:
     """Resolve the names of the channels; without channels, the n-th drives the n-th thruster.
+
+    Args:
+        channels: the channels.
+        world: the scene.
+        vehicle: the vehicle.
+        publish: the function that publishes the applied command of each thruster.
 
     Raises:
         UnknownName: the vehicle has no such thruster, or no such joint.
@@ -126,7 +147,7 @@ def bind_channels(
     curve = read_pwm_curve(DEFAULT_CURVE)
     if not channels:
         outputs = [ThrusterOutput(i, i, curve) for i in range(len(vehicle.thrusters))]
-        return ServoOutputs(vehicle, outputs, ())
+        return ServoOutputs(vehicle, outputs, (), publish)
     thrusters: list[ThrusterOutput] = []
     holding_outputs: list[HoldingOutput] = []
     for spec in channels:
@@ -144,7 +165,7 @@ def bind_channels(
             holding_outputs.append(HoldingOutput(index, curve, _lamp_command(spec.lamp, world)))
         else:
             holding_outputs.append(HoldingOutput(index, curve, _joint_command(spec, vehicle)))
-    return ServoOutputs(vehicle, thrusters, holding_outputs)
+    return ServoOutputs(vehicle, thrusters, holding_outputs, publish)
 
 
 def _lamp_command(lamp: str, world: DeviceWorld) -> Callable[[float, bool], None]:

@@ -25,6 +25,7 @@ from ...base.geometry import ZERO, Triple
 from ...messages import BatteryState, Range
 from ...schema import MAX_DISTANCE, element
 from ...world import DeviceWorld, MovingBody
+from ..applied_commands import AppliedCommands
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .body_state import body_sampler, is_base_z_down
 from .channels import ChannelSpec, bind_channels
@@ -42,7 +43,8 @@ class ArduPilotSpec(DeviceSpec):
     """A ``<u:ardupilot>``.
 
     In lock-step, simulation time waits for ArduPilot, and ArduPilot for the simulation. Without
-    ``<channel>`` elements, channel n drives the n-th thruster of the hydrodynamics file.
+    ``<channel>`` elements, channel n drives the n-th thruster of the hydrodynamics file. Each
+    exchange publishes the applied commands on ``<vehicle>/autopilot/thrusters``.
     """
 
     instance: int = element(default=0, minimum=0, maximum=99)
@@ -102,7 +104,10 @@ class ArduPilotSpec(DeviceSpec):
             SceneError: a channel is invalid.
             UwsimError: the port is not free.
         """
-        outputs = bind_channels(self.channels, world, vehicle)
+        publish = None
+        if world.connections is not None and vehicle.autopilot is not None:
+            publish = AppliedCommands(world.bus, vehicle).publish
+        outputs = bind_channels(self.channels, world, vehicle, publish)
         home = world.world_from_localized.transform(np.array(self.home))
         start = vehicle.world_from_base.rotation
         is_z_down = is_base_z_down(start) if self.axes == "start" else self.axes == "frd"

@@ -33,6 +33,7 @@ from ...errors import BadSetting, UnknownName
 from ...schema import MAX_DISTANCE, element
 from ...vehicle import Autopilot
 from ...world import DeviceWorld, MovingBody
+from ..applied_commands import AppliedCommands
 from ..device import Device, DeviceSpec, DeviceVehicle
 from .board import Board, BoardNoise, Due
 from .lock_step import LockStep, LockStepState
@@ -58,7 +59,8 @@ class Px4Spec(DeviceSpec):
     """A ``<u:px4>``.
 
     In lock-step, simulation time waits for each answer of PX4. It is connected only in a run with
-    ``--px4`` (or ``udp_address`` in Python); in all other runs the element has no effect.
+    ``--px4`` (or ``udp_address`` in Python); in all other runs the element has no effect. Each
+    answer publishes the applied commands on ``<vehicle>/autopilot/thrusters``.
     """
 
     name: str = "px4"
@@ -115,12 +117,14 @@ class Px4Spec(DeviceSpec):
         state = Px4State(
             LockStepState(), world.stream(f"{prefix}/noise"), world.stream(f"{prefix}/start_noise")
         )
-        lock_step = None
+        lock_step, applied_commands = None, None
         if world.connections is not None:
+            applied_commands = AppliedCommands(world.bus, vehicle)
             stream = world.connections.open(f"tcpin:{self.host}:{self.port}")
             place = f"TCP {self.host}:{self.port}"
             lock_step = LockStep(stream, place, self.limit, state.lock_step)
-        return Px4(world, vehicle.autopilot, board, motors, schedule, lock_step, state)
+        thrusters = Thrusters(vehicle.autopilot, motors, applied_commands)
+        return Px4(world, thrusters, board, schedule, lock_step, state)
 
     def _mount(self, vehicle: DeviceVehicle) -> MovingBody:
         """Return the frame of the board; raise BadSetting if its z axis does not point down."""
@@ -197,6 +201,29 @@ class Motors:
         return limited_commands
 
 
+class Thrusters:
+    """The thrusters of a vehicle, as the outputs of PX4 drive them.
+
+    Args:
+        autopilot: the vehicle's thrusters.
+        motors: the thrusters of the outputs.
+        applied_commands: the publisher of the commands; None: the simulation has no connections.
+    """
+
+    def __init__(
+        self, autopilot: Autopilot, motors: Motors, applied_commands: AppliedCommands | None
+    ) -> None:
+        self._autopilot, self._motors = autopilot, motors
+        self._applied_commands = applied_commands
+
+    def apply(self, controls: Sequence[float]) -> None:
+        """Apply and publish the commands of the outputs of PX4."""
+        commands = self._motors.commands(controls)
+        self._autopilot.set_thrusters(commands)
+        if self._applied_commands is not None:
+            self._applied_commands.publish(commands)
+
+
 class Schedule:
     """The steps at which messages are due.
 
@@ -258,9 +285,8 @@ class Px4(Device):
 
     Args:
         world: the clock of the simulation.
-        autopilot: the vehicle's thrusters.
+        thrusters: the vehicle's thrusters.
         board: the sensors on PX4's board.
-        motors: the thrusters of the outputs.
         schedule: the steps at which messages are due.
         lock_step: the exchange; None: the simulation has no connections, and the device is idle.
         state: the state.
@@ -269,15 +295,14 @@ class Px4(Device):
     def __init__(
         self,
         world: DeviceWorld,
-        autopilot: Autopilot,
+        thrusters: Thrusters,
         board: Board,
-        motors: Motors,
         schedule: Schedule,
         lock_step: LockStep | None,
         state: Px4State,
     ) -> None:
-        self._world, self._autopilot, self._board = world, autopilot, board
-        self._motors, self._schedule, self._lock_step = motors, schedule, lock_step
+        self._world, self._thrusters, self._board = world, thrusters, board
+        self._schedule, self._lock_step = schedule, lock_step
         self.state: Px4State = state
 
     def idle_until(self, time: float) -> float:
@@ -314,4 +339,4 @@ class Px4(Device):
 
     def _apply(self, answer: ActuatorControls) -> None:
         self.state.is_armed = answer.is_armed
-        self._autopilot.set_thrusters(self._motors.commands(answer.controls))
+        self._thrusters.apply(answer.controls)
