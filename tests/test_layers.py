@@ -90,6 +90,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "virtual_sensors", "scenarios"}
     ),
     "manoeuvres": TASKS | ENGINES | {"analysis", "manoeuvres"},
+    "datasets": TASKS | ENGINES | {"runs", "datasets"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
@@ -111,6 +112,7 @@ MAY_IMPORT: dict[str, set[str]] = {
             "virtual_sensors",
             "manoeuvres",
             "scenarios",
+            "datasets",
             "viewer",
             "cli",
         }

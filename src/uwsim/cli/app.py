@@ -83,6 +83,15 @@ COMMANDS: dict[str, Command] = {
         summary="Copy a bundled scene or benchmark with its files, to edit.",
         examples=("uwsim copy grasp-scene", "uwsim copy grasp my-grasp"),
     ),
+    "dataset": Command(
+        module="learning.dataset",
+        function="dataset",
+        summary="Make labelled images of a scene, for learning.",
+        examples=(
+            "uwsim dataset shipwreck-scene -n 1000 --workers 2 --format coco,yolo -o wreck",
+            "uwsim dataset visibility -n 500 --target blackbox --light 0.4..1.2 -o boxes",
+        ),
+    ),
     "envelope": Command(
         module="envelope",
         function="envelope",

@@ -1,0 +1,1 @@
+"""The commands that make data for learning: ``uwsim dataset`` and ``uwsim export``."""
