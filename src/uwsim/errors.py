@@ -27,6 +27,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -172,16 +173,19 @@ def name_file_in_errors(path: object, draft: object = None) -> Iterator[None]:
 
     Args:
         path: the path of the file.
-        draft: the path of the temporary file that later replaces it; errors do not name it.
+        draft: the path of the temporary file or folder that later replaces it; errors do not name
+            it.
     """
     try:
         yield
     except BrokenPipeError:
         raise
     except OSError as error:
-        if error.filename not in (None, str(draft)) or error.errno is None:
+        name, folder = str(error.filename or draft), f"{draft}{os.sep}"
+        if error.errno is None or not (name == str(draft) or name.startswith(folder)):
             raise
-        raise OSError(error.errno, error.strerror or str(error), str(path)) from error
+        user_path = f"{path}{name[len(str(draft)) :]}"
+        raise OSError(error.errno, error.strerror or str(error), user_path) from error
 
 
 RUN_ERRORS = (NeverStarted, ReplayDiffers, RunFailed)

@@ -16,7 +16,7 @@ import numpy as np
 from ..assets.bundled import scene_file
 from ..base.files.input_files import compute_hash
 from ..devices.motion.scripted_motion import write_poses
-from ..errors import BadSetting, UnknownName
+from ..errors import BadSetting, UnknownName, name_file_in_errors
 from ..logs import VehicleLog, read_log
 from ..physics.compile_scene import compile_scene
 from ..scene.reader import read_scene
@@ -199,9 +199,10 @@ def _new_folder(path: Path) -> Iterator[Path]:
     path.parent.mkdir(parents=True, exist_ok=True)
     draft = path.with_name(f".{path.name}.{os.getpid()}.part")
     shutil.rmtree(draft, ignore_errors=True)
-    draft.mkdir()
     try:
-        yield draft
-        draft.rename(path)
+        with name_file_in_errors(path, draft):
+            draft.mkdir()
+            yield draft
+            draft.rename(path)
     finally:
         shutil.rmtree(draft, ignore_errors=True)

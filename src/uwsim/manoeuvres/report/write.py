@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from ...analysis.plots import save_pdf, save_plot
+from ...base.files.staging import stage_directory
 from ...results.atomic_file import write_text
 from ...results.directory import clear_directory
 from ..experiment import Experiment
@@ -47,29 +48,32 @@ def write_report(
     Raises:
         BadSetting: the directory holds other files, or an earlier report without `overwrite`.
     """
-    clear_directory(directory, overwrite=overwrite, pattern=WRITTEN_FILES, folders=WRITTEN_FOLDERS)
-    figures = {
-        "turning-circle": draw_turning_circles(trials),
-        "zigzag": draw_zigzags(trials),
-        "spiral": draw_spiral(trials),
-        "stop": draw_stop(trials),
-    }
-    if tank is not None:
-        figures |= {"tow": draw_tows(tank), "tank": draw_tank(tank)}
-    plots = []
-    for name, figure in figures.items():
-        plots.append(save_plot(figure, directory / "plots" / f"{name}.png"))
-        save_pdf(figure, directory / "plots" / f"{name}.pdf")
-    (directory / "tracks").mkdir(parents=True, exist_ok=True)
-    for name, run in zip(
-        (
-            "turning-circle-starboard", "turning-circle-port", "zigzag-10", "zigzag-20",
-            "pull-out-starboard", "pull-out-port", "crash-stop",
-        ),
-        (*trials.turn_runs, *trials.zigzag_runs, *trials.pull_out_runs, trials.stop_run),
-        strict=True,
-    ):  # fmt: skip
-        write_text(directory / "tracks" / f"{name}.csv", track_text(run.track))
-    write_text(directory / "manoeuvres.json", json_text(experiment, trials, tank, source))
-    tables = make_tables(trials, tank, experiment.length)
-    write_text(directory / "report.html", render(experiment, trials, tables, plots, source))
+    with stage_directory(directory) as draft:
+        figures = {
+            "turning-circle": draw_turning_circles(trials),
+            "zigzag": draw_zigzags(trials),
+            "spiral": draw_spiral(trials),
+            "stop": draw_stop(trials),
+        }
+        if tank is not None:
+            figures |= {"tow": draw_tows(tank), "tank": draw_tank(tank)}
+        plots = []
+        for name, figure in figures.items():
+            plots.append(save_plot(figure, draft / "plots" / f"{name}.png"))
+            save_pdf(figure, draft / "plots" / f"{name}.pdf")
+        (draft / "tracks").mkdir(parents=True, exist_ok=True)
+        for name, run in zip(
+            (
+                "turning-circle-starboard", "turning-circle-port", "zigzag-10", "zigzag-20",
+                "pull-out-starboard", "pull-out-port", "crash-stop",
+            ),
+            (*trials.turn_runs, *trials.zigzag_runs, *trials.pull_out_runs, trials.stop_run),
+            strict=True,
+        ):  # fmt: skip
+            write_text(draft / "tracks" / f"{name}.csv", track_text(run.track))
+        write_text(draft / "manoeuvres.json", json_text(experiment, trials, tank, source))
+        tables = make_tables(trials, tank, experiment.length)
+        write_text(draft / "report.html", render(experiment, trials, tables, plots, source))
+        clear_directory(
+            directory, overwrite=overwrite, pattern=WRITTEN_FILES, folders=WRITTEN_FOLDERS
+        )

@@ -16,6 +16,7 @@ from ...base.interrupts import block_interrupts
 from ..bridge import LATCHED
 from ..encodings import to_ros1
 from ..types import WireType, ros1_store
+from .reserved_file import ReservedFile, SpaceEstimate
 
 SUFFIX = ".bag"
 """The suffix of the files."""
@@ -37,9 +38,16 @@ class BagFile:
         self._partial_path = path.with_name(f".{path.name}.partial")
         self._partial_path.unlink(missing_ok=True)
         self._writer = Writer(self._partial_path)
-        self._writer.open()
         self._connections: dict[str, Any] = {}
         self._n_written: dict[str, int] = {}
+        try:
+            self._writer.open()
+            writer: Any = self._writer
+            writer.bio = ReservedFile(writer.bio, path)
+            self._space = SpaceEstimate(writer.bio)
+        except OSError:
+            self.discard()
+            raise
 
     @staticmethod
     def has_type(kind: WireType) -> bool:
@@ -54,10 +62,14 @@ class BagFile:
             kind: the type of the message.
             time: the simulation time at which the message is delivered [ns].
             message: the message.
+
+        Raises:
+            NoSpaceError: the disk is full; the message is left out, and `close` will succeed.
         """
         seq = self._n_written.get(topic, 0)
         data = bytes(to_ros1(message, seq=seq))
         with block_interrupts():
+            self._space.reserve_message(len(data))
             if topic not in self._connections:
                 self._connections[topic] = self._writer.add_connection(
                     topic,
@@ -65,6 +77,7 @@ class BagFile:
                     typestore=ros1_store(),
                     latching=1 if topic.lstrip("/") in LATCHED else None,
                 )
+                self._space.add_channel(self._connections[topic].msgdef.data)
             self._writer.write(self._connections[topic], time, data)
             self._n_written[topic] = seq + 1
 

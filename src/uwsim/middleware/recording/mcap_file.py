@@ -27,6 +27,7 @@ from ...base.interrupts import block_interrupts
 from ..bridge import DEPTH, LATCHED, LATCHED_DEPTH
 from ..encodings import to_cdr
 from ..types import WireType, ros2_store
+from .reserved_file import ReservedFile, SpaceEstimate
 
 SUFFIX = ".mcap"
 """The suffix of the files."""
@@ -72,8 +73,15 @@ class McapFile:
             self._folder / BAG, version=Writer.VERSION_LATEST, storage_plugin=StoragePlugin.MCAP
         )
         self._writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
-        self._writer.open()
         self._channels: dict[str, Any] = {}
+        try:
+            self._writer.open()
+            storage: Any = self._writer.storage
+            storage.bio = ReservedFile(storage.bio, path)
+            self._space = SpaceEstimate(storage.bio)
+        except OSError:
+            self.discard()
+            raise
 
     @staticmethod
     def has_type(kind: WireType) -> bool:
@@ -88,9 +96,13 @@ class McapFile:
             kind: the type of the message.
             time: the simulation time at which the message is delivered [ns].
             message: the message.
+
+        Raises:
+            NoSpaceError: the disk is full; the message is left out, and `close` will succeed.
         """
         data = to_cdr(message)
         with block_interrupts():
+            self._space.reserve_message(len(data))
             if topic not in self._channels:
                 self._channels[topic] = self._writer.add_connection(
                     topic,
@@ -98,6 +110,7 @@ class McapFile:
                     typestore=ros2_store(),
                     offered_qos_profiles=[quality_of(topic)],
                 )
+                self._space.add_channel(self._channels[topic].msgdef.data)
             self._writer.write(self._channels[topic], time, data)
 
     def discard(self) -> None:
@@ -110,6 +123,11 @@ class McapFile:
     def close(self) -> None:
         """Write the index and move the file to its path."""
         with block_interrupts():
-            self._writer.close()
+            try:
+                self._writer.close()
+            except OSError:
+                if self._writer.storage is not None:
+                    raise
+                # the file is complete; its folder's metadata.yaml, which is not kept, did not fit
             (self._folder / BAG / f"{BAG}{SUFFIX}").replace(self._path)
             shutil.rmtree(self._folder, ignore_errors=True)

@@ -15,6 +15,7 @@ from ...messages.compressed import as_png
 from ..types import WireType, wire_type
 from .bag_file import BagFile
 from .mcap_file import McapFile
+from .reserved_file import NoSpaceError
 
 FILES: dict[str, type[McapFile] | type[BagFile]] = {".mcap": McapFile, ".bag": BagFile}
 """The writers by suffix: an MCAP file of ROS 2, a bag of ROS 1."""
@@ -64,7 +65,7 @@ class Recorder:
         self._bus = bus
         self._images = images
         self._stops: list[Callable[[], None]] = []
-        self._path, self._failure = path, ""
+        self._path, self._failure, self._is_finished = path, "", False
         try:
             self._file = FILES[path.suffix.lower()](path)
         except OSError as error:
@@ -124,16 +125,36 @@ class Recorder:
             return
         try:
             self._file.write(topic, kind, time, message)
-        except OSError as error:  # not raised here, as an algorithm may be publishing
-            self._failure = f"{error.strerror}: {self._path}"
-            self._file.discard()
+        except NoSpaceError as error:  # not raised here, as an algorithm may be publishing
+            self._finish()
+            if not self._failure:
+                end = f"the recording is complete up to {time / NANOSECONDS:g} s"
+                self._failure = f"{error.strerror}: {self._path} ({end})"
+            return
+        except OSError as error:
+            self._discard(error)
             return
         self.n_messages += 1
 
+    def _finish(self) -> None:
+        self._is_finished = True
+        try:
+            self._file.close()
+        except OSError as error:
+            self._discard(error)
+
+    def _discard(self, error: OSError) -> None:
+        self._is_finished = True
+        self._failure = f"{error.strerror}: {self._path} (the recording is discarded)"
+        self._file.discard()
+
     def check(self) -> None:
-        """Raise RunFailed if the file could not be written; it is then deleted."""
+        """Raise RunFailed if the disk is full, or the file cannot be written.
+
+        On a full disk the file has all messages before that time; otherwise it is deleted.
+        """
         if self._failure:
-            raise RunFailed(f"{self._failure} (the recording is discarded)")
+            raise RunFailed(self._failure)
 
     def keep(self, topic: str, message: object) -> None:
         """Record a message that is not published on the bus; call it after `start`."""
@@ -151,12 +172,8 @@ class Recorder:
         for stop in self._stops:
             stop()
         self._stops.clear()
-        if not self._failure:
-            try:
-                self._file.close()
-            except OSError as error:
-                self._failure = f"{error.strerror}: {self._path}"
-                self._file.discard()
+        if not self._is_finished:
+            self._finish()
         self.check()
 
     def __enter__(self) -> Self:
