@@ -89,6 +89,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "scenarios": (
         TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "virtual_sensors", "scenarios"}
     ),
+    "envs": TASKS | ENGINES | {"checks", "runs", "viewer", "envs"},
     "manoeuvres": TASKS | ENGINES | {"analysis", "manoeuvres"},
     "datasets": TASKS | ENGINES | {"runs", "datasets"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},

@@ -17,6 +17,8 @@ import numpy as np
 def source_digest(function: FunctionType) -> str:
     """Return a digest of a function, of the functions that it calls and of its constants.
 
+    The options of the compilation enter, too.
+
     Functions that numba does not compile from Python (of numpy, intrinsics) enter by their names.
     """
     digest = hashlib.sha256()
@@ -31,6 +33,9 @@ def source_digest(function: FunctionType) -> str:
                     functions_seen.add(python_function)
                     functions_left.append(python_function)
             digest.update(f"{name}={_constant_text(value)};".encode())
+        dispatcher = current_function.__globals__.get(current_function.__name__)
+        options = getattr(dispatcher, "targetoptions", {})
+        digest.update(repr(sorted(options.items())).encode())
         digest.update(_code_bytes(current_function.__code__))
     return digest.hexdigest()
 

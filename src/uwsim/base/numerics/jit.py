@@ -33,7 +33,7 @@ from ..files import disk_cache
 from .compiled_source import source_digest
 from .compiling import count_compilation
 
-FORMAT = 4
+FORMAT = 5
 """The version of the format of the files with compiled code."""
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -46,6 +46,18 @@ def njit(function: Callable[P, R]) -> Callable[P, R]:
     A division by zero gives infinity or NaN, as in numpy.
     """
     dispatcher: Any = numba.njit(nogil=True, error_model="numpy")(function)
+    if dispatcher is not function:  # it is the function with NUMBA_DISABLE_JIT
+        dispatcher._cache = CacheOnUse(function)
+    return cast("Callable[P, R]", dispatcher)
+
+
+def njit_borrowed(function: Callable[P, R]) -> Callable[P, R]:
+    """Compile a function as `njit` does that neither creates nor returns arrays.
+
+    Its code does not count references to the arrays that it reads and writes, which the caller
+    holds. Counting them would take most of the time of a function of a few numbers.
+    """
+    dispatcher: Any = numba.njit(nogil=True, error_model="numpy", _nrt=False)(function)
     if dispatcher is not function:  # it is the function with NUMBA_DISABLE_JIT
         dispatcher._cache = CacheOnUse(function)
     return cast("Callable[P, R]", dispatcher)

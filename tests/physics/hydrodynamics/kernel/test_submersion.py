@@ -8,14 +8,16 @@ import numpy as np
 import pytest
 
 from uwsim.physics.hydrodynamics import columns as c
-from uwsim.physics.hydrodynamics.kernel.submersion import compute_submersion
+from uwsim.physics.hydrodynamics.kernel.submersion import MEMORY, compute_submersion
 
 
 def part(
     shape: float, size: tuple[float, ...], up: np.ndarray, depth: float
 ) -> tuple[float, np.ndarray]:
     lengths = [*size, 0.0, 0.0, 0.0][:3]
-    fraction, *centre = compute_submersion(shape, *lengths, *(up / np.linalg.norm(up)), depth)
+    fraction, *centre = compute_submersion(
+        shape, *lengths, *(up / np.linalg.norm(up)), depth, np.empty(MEMORY)
+    )
     return fraction, np.array(centre)
 
 

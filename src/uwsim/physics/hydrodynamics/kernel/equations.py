@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit_borrowed
 from ....base.numerics.memory import Floats
 from .. import columns as c
 from .submersion import compute_submersion
@@ -26,7 +26,7 @@ Three = tuple[float, float, float]
 Six = tuple[float, float, float, float, float, float]
 
 
-@njit
+@njit_borrowed
 def to_body(axes: Floats, x: float, y: float, z: float) -> Three:
     """Rotate a vector from world axes to body axes."""
     return (
@@ -36,7 +36,7 @@ def to_body(axes: Floats, x: float, y: float, z: float) -> Three:
     )
 
 
-@njit
+@njit_borrowed
 def to_world(axes: Floats, x: float, y: float, z: float) -> Three:
     """Rotate a vector from body axes to world axes."""
     return (
@@ -46,7 +46,7 @@ def to_world(axes: Floats, x: float, y: float, z: float) -> Three:
     )
 
 
-@njit
+@njit_borrowed
 def read_six(numbers: Floats, start: int) -> Six:
     """Return six numbers of an array, from the index ``start`` on."""
     return (
@@ -55,13 +55,13 @@ def read_six(numbers: Floats, start: int) -> Six:
     )  # fmt: skip
 
 
-@njit
+@njit_borrowed
 def subtract(a: Six, b: Six) -> Six:
     """Return the difference of two wrenches."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3], a[4] - b[4], a[5] - b[5]
 
 
-@njit
+@njit_borrowed
 def reference_point(table: Floats, xpos: Floats, axes: Floats, com: Floats) -> tuple[float, Three]:
     """Return the height of the reference point in the world, and the lever to it [m].
 
@@ -80,7 +80,7 @@ def reference_point(table: Floats, xpos: Floats, axes: Floats, com: Floats) -> t
     )
 
 
-@njit
+@njit_borrowed
 def surface_plane(
     table: Floats, axes: Floats, height: float, surface: float, water: Floats
 ) -> tuple[Three, float]:
@@ -108,8 +108,8 @@ def surface_plane(
     return up, depth + (up[0] * x + up[1] * y + up[2] * z)
 
 
-@njit
-def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three]:
+@njit_borrowed
+def submerged_part(table: Floats, up: Three, depth: float, memory: Floats) -> tuple[float, Three]:
     """Return the submerged fraction of a body, and the centre of the submerged part.
 
     The centre is relative to the reference point, in body axes [m].
@@ -118,6 +118,7 @@ def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three
         table: the row of the body.
         up: the upward unit normal of the surface in body axes.
         depth: the depth of the reference point below the surface [m].
+        memory: scratch memory, (`submersion.MEMORY`,).
     """
     x, y, z = table[c.CENTRE], table[c.CENTRE + 1], table[c.CENTRE + 2]
     depth = depth - (up[0] * x + up[1] * y + up[2] * z)
@@ -125,14 +126,20 @@ def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three
         return 1.0, (x, y, z)
     fraction, cx, cy, cz = compute_submersion(
         table[c.SHAPE], table[c.SIZE], table[c.SIZE + 1], table[c.SIZE + 2],
-        up[0], up[1], up[2], depth,
+        up[0], up[1], up[2], depth, memory,
     )  # fmt: skip
     return fraction, (x + cx, y + cy, z + cz)
 
 
-@njit
+@njit_borrowed
 def entered_share(
-    table: Floats, up: Three, depth: float, fraction: float, nu: Six, step: float
+    table: Floats,
+    up: Three,
+    depth: float,
+    fraction: float,
+    nu: Six,
+    step: float,
+    memory: Floats,
 ) -> float:
     """Return the fraction of the submerged part that has entered the water within a step.
 
@@ -143,18 +150,19 @@ def entered_share(
         fraction: the submerged fraction of the body.
         nu: the twist relative to the water during the step.
         step: the length of the step [s].
+        memory: scratch memory, (`submersion.MEMORY`,).
     """
     a, b, c = up
     u, v, w, p, q, r = nu
     x, y, z = a - step * (b * r - c * q), b - step * (c * p - a * r), c - step * (a * q - b * p)
     size = math.sqrt(x * x + y * y + z * z)
     previous_fraction, _ = submerged_part(
-        table, (x / size, y / size, z / size), depth + step * (a * u + b * v + c * w)
+        table, (x / size, y / size, z / size), depth + step * (a * u + b * v + c * w), memory
     )
     return max(fraction - previous_fraction, 0.0) / fraction
 
 
-@njit
+@njit_borrowed
 def subtract_momentum_rate(force: Six, momentum: Six, rate: float) -> Six:
     """Return a wrench minus a momentum times the relative growth rate of the added mass [1/s]."""
     return (
@@ -164,7 +172,7 @@ def subtract_momentum_rate(force: Six, momentum: Six, rate: float) -> Six:
     )  # fmt: skip
 
 
-@njit
+@njit_borrowed
 def relative_twist(axes: Floats, lever: Three, twist: Floats, water: Floats) -> Six:
     r"""Return the twist :math:`\nu_r` relative to the water.
 
@@ -186,7 +194,7 @@ def relative_twist(axes: Floats, lever: Three, twist: Floats, water: Floats) -> 
     return u, v, w, p, q, r
 
 
-@njit
+@njit_borrowed
 def bias_acceleration(axes: Floats, lever: Three, bias: Six, water: Floats, omega: Three) -> Six:
     r"""Return the part of :math:`\dot\nu_r` that does not depend on the solution of the step.
 
@@ -220,7 +228,7 @@ def bias_acceleration(axes: Floats, lever: Three, bias: Six, water: Floats, omeg
     )  # fmt: skip
 
 
-@njit
+@njit_borrowed
 def diagonal_momentum(table: Floats, nu: Six) -> Six:
     """Return the momentum of the added mass of a body with diagonal matrices."""
     return (
@@ -229,7 +237,7 @@ def diagonal_momentum(table: Floats, nu: Six) -> Six:
     )  # fmt: skip
 
 
-@njit
+@njit_borrowed
 def drag_speeds(table: Floats, nu: Six) -> Six:
     """Return the speed s of each component in the quadratic drag; see `BodyHydrodynamics`.
 
@@ -253,7 +261,7 @@ def drag_speeds(table: Floats, nu: Six) -> Six:
     return x, y, z, d, e, f
 
 
-@njit
+@njit_borrowed
 def _drag_slope(table: Floats, i: int, nu_i: float, s: float) -> float:
     """Return the derivative of the drag of component i: linear + quadratic (s + u^2 / s)."""
     u = abs(nu_i)
@@ -262,7 +270,7 @@ def _drag_slope(table: Floats, i: int, nu_i: float, s: float) -> float:
     return slope
 
 
-@njit
+@njit_borrowed
 def drag_slopes(table: Floats, nu: Six, s: Six) -> Six:
     """Return the derivative of the drag of each component with respect to its speed."""
     return (
@@ -272,7 +280,7 @@ def drag_slopes(table: Floats, nu: Six, s: Six) -> Six:
     )  # fmt: skip
 
 
-@njit
+@njit_borrowed
 def diagonal_force(table: Floats, nu: Six, rate: Six, s: Six, slope: Six, step: float) -> Six:
     r"""Return the wrench :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu` of diagonal matrices.
 
@@ -294,14 +302,14 @@ def diagonal_force(table: Floats, nu: Six, rate: Six, s: Six, slope: Six, step: 
     )
 
 
-@njit
+@njit_borrowed
 def _axis_force(table: Floats, i: int, nu_i: float, rate: float, s: float, change: float) -> float:
     drag = (table[c.LINEAR + 7 * i] + table[c.QUADRATIC + 7 * i] * s) * nu_i
     force: float = -(table[c.M_A + 7 * i] + change) * rate - drag
     return force
 
 
-@njit
+@njit_borrowed
 def full_force(
     table: Floats, nu: Six, rate: Six, step: float, work: Floats, start: int
 ) -> tuple[Six, Six]:
@@ -332,7 +340,7 @@ def full_force(
     )
 
 
-@njit
+@njit_borrowed
 def coriolis(nu: Six, omega: Three, momentum: Six) -> Six:
     r"""Return the Coriolis wrench of the added mass, :math:`C_A(\nu)\,\nu` (Kirchhoff).
 
@@ -353,7 +361,7 @@ def coriolis(nu: Six, omega: Three, momentum: Six) -> Six:
     )
 
 
-@njit
+@njit_borrowed
 def buoyancy(mass: float, water: Floats, gravity: Floats, gravity_scale: float) -> Three:
     """Return the buoyancy with the pressure force of accelerating water [N], in world axes.
 
@@ -370,7 +378,7 @@ def buoyancy(mass: float, water: Floats, gravity: Floats, gravity_scale: float) 
     )
 
 
-@njit
+@njit_borrowed
 def move_wrench(axes: Floats, lever: Three, fraction: float, force: Six) -> Six:
     """Return a fraction of a body's wrench as a spatial force of MuJoCo: torque, then force."""
     rx, ry, rz = lever
@@ -387,7 +395,7 @@ def move_wrench(axes: Floats, lever: Three, fraction: float, force: Six) -> Six:
     )
 
 
-@njit
+@njit_borrowed
 def add_wrench(
     axes: Floats, lever: Three, centre: Three, wrench: Six, force: Three, out: Floats, k: int
 ) -> None:

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import math
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit, njit_borrowed
 from ....base.numerics.memory import (
     Floats,
     Ints64,
@@ -78,7 +78,7 @@ def add_fin(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work: F
     add_force(m, d, o, site, body, (x, y, 0.0), 0.0, work)
 
 
-@njit
+@njit_borrowed
 def servo_speed(table: Floats, angle: float, target: float, step: float, is_rate: bool) -> float:
     """Return the angular velocity of a fin towards its target angle [rad/s].
 
@@ -99,7 +99,7 @@ def servo_speed(table: Floats, angle: float, target: float, step: float, is_rate
     return limited_speed
 
 
-@njit
+@njit_borrowed
 def foil_force(
     table: Floats, angle: float, u: float, v: float, density: float
 ) -> tuple[float, float]:
@@ -123,7 +123,7 @@ def foil_force(
     return -size * (lift * v + drag * u), size * (lift * u - drag * v)
 
 
-@njit
+@njit_borrowed
 def coefficients(table: Floats, angle: float) -> tuple[float, float]:
     """Return the coefficients of lift and drag at an angle of attack, from -pi to pi [rad]."""
     if table[c.N_COEFFICIENTS] > 0.0:
@@ -140,7 +140,7 @@ def coefficients(table: Floats, angle: float) -> tuple[float, float]:
     return (lift if angle > 0.0 else -lift), drag + share * (table[c.DRAG] + plate * sine - drag)
 
 
-@njit
+@njit_borrowed
 def _interpolate(table: Floats, angle: float) -> tuple[float, float]:
     """Interpolate the coefficients in the table; beyond its ends they are constant."""
     is_even = table[c.IS_EVEN] != 0.0

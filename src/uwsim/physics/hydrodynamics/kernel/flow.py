@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ....base.numerics.jit import njit
 from ....base.numerics.memory import (
     Floats,
@@ -14,6 +16,7 @@ from ....base.numerics.memory import (
 from .. import columns as c
 from . import fields as f
 from .equations import Three, relative_twist, submerged_part, surface_plane
+from .submersion import MEMORY
 
 
 @njit
@@ -110,7 +113,7 @@ def submerged_middle(m: int, d: int, o: Ints64, body: int, height: float) -> flo
     origin = read_double(read_int64(d + o[f.XPOS]) + 8 * (3 * body + 2))
     reference = origin + axes[6] * x + axes[7] * y + axes[8] * z
     up, depth = surface_plane(table, axes, reference, surface, water)
-    fraction, centre = submerged_part(table, up, depth)
+    fraction, centre = submerged_part(table, up, depth, np.empty(MEMORY))
     if table[c.KIND] == c.DRY_BODY or fraction <= 0.0:
         return height
     middle: float = reference + axes[6] * centre[0] + axes[7] * centre[1] + axes[8] * centre[2]

@@ -13,14 +13,14 @@ from __future__ import annotations
 
 import math
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit_borrowed
 from ....base.numerics.memory import Floats
 from . import fields as f
 from .equations import Six, Three
 from .midpoint import FORCE, INERTIA, MOMENTUM, RATE, SUM, TWIST, multiply, rotation_rate
 
 
-@njit
+@njit_borrowed
 def rotate_velocity(v: Floats, q: Floats, water: Floats, time: float, to_middle: float) -> None:
     """Rotate the linear velocity relative to the water with the body for a time.
 
@@ -44,7 +44,7 @@ def rotate_velocity(v: Floats, q: Floats, water: Floats, time: float, to_middle:
     v[2] = rz + time * z + water[2] - t_after * water[5]
 
 
-@njit
+@njit_borrowed
 def rotate_to_world(q: Floats, x: float, y: float, z: float) -> Three:
     """Rotate a vector from body axes to world axes by the quaternion in q."""
     n, a, b, c = q[3], q[4], q[5], q[6]
@@ -56,7 +56,7 @@ def rotate_to_world(q: Floats, x: float, y: float, z: float) -> Three:
     )
 
 
-@njit
+@njit_borrowed
 def rotate_attitude(q: Floats, v: Floats, time: float) -> None:
     """Rotate the attitude in q with the angular velocity in v for a time [s]."""
     half2 = 0.25 * time * time * (v[3] * v[3] + v[4] * v[4] + v[5] * v[5])
@@ -77,7 +77,7 @@ def rotate_attitude(q: Floats, v: Floats, time: float) -> None:
         q[i] *= inverse
 
 
-@njit
+@njit_borrowed
 def rigid_momentum(
     row: Floats, wx: float, wy: float, wz: float, vx: float, vy: float, vz: float
 ) -> Six:
@@ -94,7 +94,7 @@ def rigid_momentum(
     )
 
 
-@njit
+@njit_borrowed
 def multiply_inertia(crb: Floats, x: float, y: float, z: float) -> Three:
     """Multiply the rotational inertia of a (composite) rigid body by a vector."""
     return (
@@ -104,7 +104,7 @@ def multiply_inertia(crb: Floats, x: float, y: float, z: float) -> Three:
     )
 
 
-@njit
+@njit_borrowed
 def unpack_inertia(work: Floats, ff: int, b: Floats, k: int) -> None:
     """Copy an inertia in blocks, from index ``ff`` on, to the upper triangle of a matrix at k.
 
@@ -120,7 +120,7 @@ def unpack_inertia(work: Floats, ff: int, b: Floats, k: int) -> None:
             b[k + 6 * j + 3 + i] = work[ft + 3 * i + j]
 
 
-@njit
+@njit_borrowed
 def undo_gyroscopic(crb: Floats, lever: Three, h: float, b: Floats) -> None:
     r"""Subtract the gyroscopic term that ``implicitfast`` adds for a free body without joints.
 
@@ -143,7 +143,7 @@ def undo_gyroscopic(crb: Floats, lever: Three, h: float, b: Floats) -> None:
     b[FORCE + 5] += h * crb[9] * (ax * vy - ay * vx + wx * uy - wy * ux)
 
 
-@njit
+@njit_borrowed
 def fill_motion(
     twist: Floats, water: Floats, lever: Three, work: Floats, base: int, b: Floats
 ) -> None:
@@ -181,7 +181,7 @@ def fill_motion(
         b[FORCE + i] += work[base + f.WRENCH + i]
 
 
-@njit
+@njit_borrowed
 def add_rigid_body(
     row: Floats, twist: Six, bias: Six, gravity: Three, speed: Three, b: Floats
 ) -> None:
@@ -217,7 +217,7 @@ def add_rigid_body(
     b[MOMENTUM + 5] += pz - mass * sz
 
 
-@njit
+@njit_borrowed
 def fill_inertia(crb: Floats, work: Floats, ff: int, drag: int, b: Floats) -> None:
     """Fill in the inertia of water and rigid bodies of a tree, without and with implicit drag.
 
@@ -245,7 +245,7 @@ def fill_inertia(crb: Floats, work: Floats, ff: int, drag: int, b: Floats) -> No
             b[SUM + 6 * j + i] = b[SUM + 6 * i + j]
 
 
-@njit
+@njit_borrowed
 def convert_rate(lever: Three, h: float, b: Floats) -> None:
     """Convert the solved rate to that of the twist in world axes, as MuJoCo integrates it.
 

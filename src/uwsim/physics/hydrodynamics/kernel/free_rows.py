@@ -10,7 +10,15 @@ import numpy as np
 
 from ....base.numerics.jit import njit
 from ....base.numerics.memory import Floats
-from .free_step import ACTUATORS, WORK, FreeVehicle, advance_actuators, step_one
+from .free_step import (
+    ACTUATORS,
+    ROTOR,
+    WORK,
+    FreeVehicle,
+    advance_actuators,
+    fill_rotors,
+    step_one,
+)
 
 
 @njit
@@ -28,13 +36,14 @@ def simulate_rows(
         path: receives the motion of each row before the first and after every step,
             (rows, n + 1, `ACTUATORS`).
     """
-    work = np.empty(WORK)
+    work, rotors = np.empty(WORK), np.zeros((len(vehicle.actuators), ROTOR))
+    fill_rotors(vehicle, h, rotors)
     for row in range(len(states)):
         state = states[row]
         for k in range(ACTUATORS):
             path[row, 0, k] = state[k]
         for i in range(commands.shape[1]):
-            step_one(vehicle, state, commands[row, i], water, h, work)
+            step_one(vehicle, rotors, state, commands[row, i], water, h, work)
             for k in range(ACTUATORS):
                 path[row, i + 1, k] = state[k]
 
@@ -53,9 +62,11 @@ def simulate_actuators(
         path: receives the states of the actuators before the first and after every step,
             (n + 1, k).
     """
+    rotors = np.zeros((len(vehicle.actuators), ROTOR))
+    fill_rotors(vehicle, h, rotors)
     for i in range(len(commands)):
         for k in range(path.shape[1]):
             path[i, k] = state[ACTUATORS + k]
-        advance_actuators(vehicle, state, commands[i], h)
+        advance_actuators(vehicle, rotors, state, commands[i], h)
     for k in range(path.shape[1]):
         path[len(commands), k] = state[ACTUATORS + k]

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit_borrowed
 from ....base.numerics.memory import Floats
 from .. import columns as c
 from . import fields as f
@@ -68,6 +68,9 @@ RIGID_BODY = 10
 """The length of a row of `FreeVehicle.rigid_body`."""
 POSE = 12
 """The length of a pose: the position [m], and the rotation (3, 3) by rows."""
+HALF_STEP_SHARE, STEP_SHARE, LOSS, ROTOR = 0, 1, 2, 3
+"""The columns of a row for a thruster: the fractions of a step input that its rotor reaches in half
+a step and in a step, the loss of thrust from 0 (healthy) to 1 (dead); and the length of the row."""
 
 _SCRATCH = f.ROW
 _DRAG = _SCRATCH + f.SCRATCH
@@ -105,14 +108,38 @@ class FreeVehicle(NamedTuple):
     """The density of the water [kg/m3]."""
 
 
-@njit
+@njit_borrowed
+def fill_rotors(vehicle: FreeVehicle, h: float, rotors: Floats) -> None:
+    """Compute the fractions of a step input that the lag of each rotor reaches, once for a run.
+
+    Args:
+        vehicle: the numbers of the vehicle.
+        h: the length of a step [s].
+        rotors: receives the fractions in its first columns, (k, `ROTOR`).
+    """
+    for i in range(len(vehicle.actuators)):
+        lag = vehicle.actuators[i, c.LAG]
+        rotors[i, HALF_STEP_SHARE], rotors[i, STEP_SHARE] = (
+            lag_share(lag, 0.5 * h),
+            lag_share(lag, h),
+        )
+
+
+@njit_borrowed
 def step_one(
-    vehicle: FreeVehicle, state: Floats, commands: Floats, water: Floats, h: float, work: Floats
+    vehicle: FreeVehicle,
+    rotors: Floats,
+    state: Floats,
+    commands: Floats,
+    water: Floats,
+    h: float,
+    work: Floats,
 ) -> None:
     """Advance one vehicle by a step.
 
     Args:
         vehicle: the numbers of the vehicle.
+        rotors: the numbers of `fill_rotors`, and the losses of the thrusters, (k, `ROTOR`).
         state: the row of the state, (`ACTUATORS` + k,), which is changed.
         commands: the commands of the thrusters [1] and fins [rad], (k,).
         water: the row of the water in W in the middle of the step (`columns`), (12,).
@@ -128,7 +155,7 @@ def step_one(
     for i in range(_AXES):
         work[i] = 0.0
     axes, com, twist = work[_AXES:_PART_AXES], work[_COM:_ORIGIN], work[_TWIST:_CRB]
-    _write_axes(q, axes)
+    write_axes(q, axes)
     for i in range(3):
         work[_ORIGIN + i] = q[i]
     lever = _place_body(vehicle.rigid_body, q, v, axes, com, twist)
@@ -143,7 +170,7 @@ def step_one(
     for part in range(len(bodies)):
         _place_part(poses[part], q, axes, work)
         _add_part(bodies[part], weight, bias, water, h, work)
-    _add_actuators(vehicle, state, commands, water, h, work)
+    _add_actuators(vehicle, rotors, state, commands, water, h, work)
     fill_inertia(crb, work, f.FF, _DRAG, b)
     fill_motion(twist, water, lever, work, 0, b)
     known_rate = (b[RATE + 3], b[RATE + 4], b[RATE + 5])  # the rate without accelerations
@@ -159,24 +186,26 @@ def step_one(
     for i in range(3):
         q[i] += 0.5 * h * v[i]
     rotate_attitude(q, v, 0.5 * h)
-    advance_actuators(vehicle, state, commands, h)
+    advance_actuators(vehicle, rotors, state, commands, h)
 
 
-@njit
-def advance_actuators(vehicle: FreeVehicle, state: Floats, commands: Floats, h: float) -> None:
+@njit_borrowed
+def advance_actuators(
+    vehicle: FreeVehicle, rotors: Floats, state: Floats, commands: Floats, h: float
+) -> None:
     """Advance the rotors and fins of a vehicle alone by a step; see `step_one`."""
     actuators, limits = vehicle.actuators, vehicle.limits
     for i in range(len(actuators)):
         table, k = actuators[i], ACTUATORS + i
         if table[c.ROLE] == c.PROPELLER:
             command = min(max(commands[i], limits[i, 0]), limits[i, 1])
-            state[k] += lag_share(table[c.LAG], h) * (command - state[k])
+            state[k] += rotors[i, STEP_SHARE] * (command - state[k])
         else:
             state[k] += h * servo_speed(table, state[k], commands[i], h, False)
 
 
-@njit
-def _write_axes(q: Floats, axes: Floats) -> None:
+@njit_borrowed
+def write_axes(q: Floats, axes: Floats) -> None:
     """Write the rotation (9,) of the attitude of a row."""
     w, x, y, z = q[3], q[4], q[5], q[6]
     axes[0], axes[4], axes[8] = (
@@ -189,7 +218,7 @@ def _write_axes(q: Floats, axes: Floats) -> None:
     axes[6], axes[7] = 2.0 * (x * z - w * y), 2.0 * (y * z + w * x)
 
 
-@njit
+@njit_borrowed
 def _place_body(
     rigid_body: Floats, q: Floats, v: Floats, axes: Floats, com: Floats, twist: Floats
 ) -> Three:
@@ -204,7 +233,7 @@ def _place_body(
     return (-x, -y, -z)
 
 
-@njit
+@njit_borrowed
 def _place_part(pose: Floats, q: Floats, axes: Floats, work: Floats) -> None:
     """Compute the position and the axes of a link or a site in the world."""
     x, y, z = to_world(axes, pose[0], pose[1], pose[2])
@@ -219,7 +248,7 @@ def _place_part(pose: Floats, q: Floats, axes: Floats, work: Floats) -> None:
             )
 
 
-@njit
+@njit_borrowed
 def _rotate_rigid(rigid_body: Floats, axes: Floats, crb: Floats) -> None:
     """Write the row of the rigid body in world axes about its centre of mass."""
     xx, yy, zz, xy, xz, yz = read_six(rigid_body, 4)
@@ -236,7 +265,7 @@ def _rotate_rigid(rigid_body: Floats, axes: Floats, crb: Floats) -> None:
         )
 
 
-@njit
+@njit_borrowed
 def _add_part(
     table: Floats, gravity: Floats, bias: Six, water: Floats, h: float, work: Floats
 ) -> None:
@@ -274,9 +303,15 @@ def _add_part(
             add_diagonal_inertia(axes, lever, change, work, _DRAG)
 
 
-@njit
+@njit_borrowed
 def _add_actuators(
-    vehicle: FreeVehicle, state: Floats, commands: Floats, water: Floats, h: float, work: Floats
+    vehicle: FreeVehicle,
+    rotors: Floats,
+    state: Floats,
+    commands: Floats,
+    water: Floats,
+    h: float,
+    work: Floats,
 ) -> None:
     """Add the forces of thrusters and fins in the middle of the step, as `kernel` does.
 
@@ -290,7 +325,9 @@ def _add_actuators(
         twisting = 0.0
         if table[c.ROLE] == c.PROPELLER:
             command = min(max(commands[i], limits[i, 0]), limits[i, 1])
-            x = _thrust(table, pose, actuator_state, command, density, water, h, work)
+            rotor = actuator_state + rotors[i, HALF_STEP_SHARE] * (command - actuator_state)
+            health = 1.0 - rotors[i, LOSS]
+            x = _thrust(table, pose, health * static_thrust(table, rotor), density, water, work)
             y, twisting = 0.0, table[c.TORQUE]
         else:
             speed = servo_speed(table, actuator_state, commands[i], h, False)
@@ -313,27 +350,18 @@ def _add_actuators(
         work[f.WRENCH + 3 + i] += force[i]
 
 
-@njit
+@njit_borrowed
 def _thrust(
-    table: Floats,
-    pose: Floats,
-    actuator_state: float,
-    command: float,
-    density: float,
-    water: Floats,
-    h: float,
-    work: Floats,
+    table: Floats, pose: Floats, thrust: float, density: float, water: Floats, work: Floats
 ) -> float:
-    """Return the thrust of a thruster [N]."""
-    lag = lag_share(table[c.LAG], 0.5 * h)
-    thrust = static_thrust(table, actuator_state + lag * (command - actuator_state))
+    """Return the thrust of a thruster with a static thrust, less what the inflow takes [N]."""
     if table[c.N_ADVANCE] > 0.0:
         speed = _site_velocity(pose, water, work)[0]
         thrust *= 1.0 - inflow_loss(table, thrust, speed, density)
     return thrust
 
 
-@njit
+@njit_borrowed
 def _site_velocity(pose: Floats, water: Floats, work: Floats) -> tuple[float, float]:
     """Return the velocity of a site through the water along its x and y axes [m/s]."""
     _place_part(pose, work[_ORIGIN:_TWIST], work[_AXES:_PART_AXES], work)
@@ -347,7 +375,7 @@ def _site_velocity(pose: Floats, water: Floats, work: Floats) -> tuple[float, fl
     return flow[0], flow[1]
 
 
-@njit
+@njit_borrowed
 def _apply_rate(lever: Three, axes: Floats, h: float, b: Floats, v: Floats) -> None:
     """Add the solved rate to the velocity of the base, which is not at the centre of mass."""
     rx, ry, rz = lever

@@ -6,7 +6,7 @@ is implicit over a step (step times slope of the drag) may be added.
 
 from __future__ import annotations
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit_borrowed
 from ....base.numerics.memory import Floats
 from ..columns import M_A
 from .equations import Six, Three
@@ -16,7 +16,7 @@ MAX_DRAG_SHARE = 0.01
 terms."""
 
 
-@njit
+@njit_borrowed
 def diagonal_inertia(table: Floats, slope: Six, p: float, step: float) -> tuple[Six, Six]:
     """Return the diagonal inertia with implicit drag, and the implicit drag alone.
 
@@ -35,7 +35,7 @@ def diagonal_inertia(table: Floats, slope: Six, p: float, step: float) -> tuple[
     ), (a, b, c, d, e, f)  # fmt: skip
 
 
-@njit
+@njit_borrowed
 def is_significant(inertia: Six, drag: Six) -> bool:
     """Return whether implicit drag exceeds `MAX_DRAG_SHARE` of the inertia of any axis."""
     return (
@@ -48,7 +48,7 @@ def is_significant(inertia: Six, drag: Six) -> bool:
     )
 
 
-@njit
+@njit_borrowed
 def subtract_added_mass(table: Floats, work: Floats, start: int) -> bool:
     """Subtract the added mass from a full inertia (6, 6); return if the drag is significant."""
     has_drag = False
@@ -60,7 +60,7 @@ def subtract_added_mass(table: Floats, work: Floats, start: int) -> bool:
     return has_drag
 
 
-@njit
+@njit_borrowed
 def add_diagonal_inertia(axes: Floats, lever: Three, inertia: Six, out: Floats, k: int) -> None:
     """Transform a diagonal inertia to world axes and the centre of mass of the tree, and add it.
 
@@ -114,7 +114,7 @@ def add_diagonal_inertia(axes: Floats, lever: Three, inertia: Six, out: Floats, 
     out[k + 20] += zz + rx * f5 - ry * f2
 
 
-@njit
+@njit_borrowed
 def _rotate_block(axes: Floats, work: Floats, block: int, k: int) -> None:
     """Rotate a block (3, 3) of a matrix (6, 6) to world axes, R B R^T.
 
@@ -134,7 +134,7 @@ def _rotate_block(axes: Floats, work: Floats, block: int, k: int) -> None:
         work[k + 6 + j] = axes[6] * a + axes[7] * b + axes[8] * c
 
 
-@njit
+@njit_borrowed
 def add_full_inertia(axes: Floats, lever: Three, p: float, out: Floats, start: int, k: int) -> None:
     """Transform a full inertia to world axes and the centre of mass of the tree, and add it.
 

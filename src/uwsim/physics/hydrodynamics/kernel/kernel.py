@@ -264,6 +264,7 @@ def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_ma
     gravity_scale = 0.0 if (read_int32(m + o[f.DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
     is_stratified = read_double(read_int64(m + o[f.BODY_USER]) + 8 * c.N_LEVELS) > 0.0
     scratch = f.ROW * nbody
+    memory = work[scratch : scratch + f.SCRATCH]
     for body in range(1, nbody):
         table = view_doubles(
             read_int64(m + o[f.BODY_USER]) + 8 * c.BODY_COLUMNS * body, c.BODY_COLUMNS
@@ -281,7 +282,7 @@ def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_ma
         twist = view_doubles(read_int64(d + o[f.CVEL]) + 48 * body, 6)
         height, lever = reference_point(table, position, axes, com)
         up, depth = surface_plane(table, axes, height, surface, water)
-        fraction, centre = submerged_part(table, up, depth)
+        fraction, centre = submerged_part(table, up, depth, memory)
         if fraction <= 0.0:
             continue
         nu = relative_twist(axes, lever, twist, water)
@@ -289,7 +290,7 @@ def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_ma
         x, y, z = centre
         if depth - (up[0] * x + up[1] * y + up[2] * z) < 2.0 * table[c.REACH]:
             timestep = read_double(m + o[f.TIMESTEP])
-            growth = entered_share(table, up, depth, fraction, nu, timestep) / timestep
+            growth = entered_share(table, up, depth, fraction, nu, timestep, memory) / timestep
         if is_stratified:
             centre_height = height + axes[6] * x + axes[7] * y + axes[8] * z
             fraction *= density_ratio(m, o, centre_height)

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit_borrowed
 from ....base.numerics.memory import Floats
 
 INERTIA, TWIST, MOMENTUM, FORCE, RATE, SUM = 0, 36, 42, 48, 54, 60
@@ -41,7 +41,7 @@ ends, and at which its result is valid; and relative to the energy of the last c
 which the matrix is computed again."""
 
 
-@njit
+@njit_borrowed
 def solve_rate(b: Floats, h: float) -> None:
     """Solve for the rate over a step h [s] by Newton's method.
 
@@ -75,7 +75,7 @@ def solve_rate(b: Floats, h: float) -> None:
         _bound_rate(b, h)
 
 
-@njit
+@njit_borrowed
 def _bound_rate(b: Floats, h: float) -> None:
     r"""Find a rate without a gain of energy, if Newton's method does not converge.
 
@@ -100,7 +100,7 @@ def _bound_rate(b: Floats, h: float) -> None:
         multiply(b, INERTIA, RATE, _IMAGE)
 
 
-@njit
+@njit_borrowed
 def multiply(b: Floats, matrix: int, vector: int, k: int) -> None:
     """Write the product of the symmetric matrix (6, 6) at ``matrix`` and a vector (6,) to ``k``."""
     t0, t1, t2, t3, t4, t5 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -115,7 +115,7 @@ def multiply(b: Floats, matrix: int, vector: int, k: int) -> None:
     b[k], b[k + 1], b[k + 2], b[k + 3], b[k + 4], b[k + 5] = t0, t1, t2, t3, t4, t5
 
 
-@njit
+@njit_borrowed
 def cross(b: Floats, twist: int, momentum: int, k: int, share: float) -> None:
     """Add ``share`` times the cross product of a twist and a momentum to the wrench at ``k``."""
     wx, wy, wz, vx, vy, vz = (
@@ -133,7 +133,7 @@ def cross(b: Floats, twist: int, momentum: int, k: int, share: float) -> None:
     b[k + 5] += share * (wx * py - wy * px)
 
 
-@njit
+@njit_borrowed
 def _residual(b: Floats, h: float) -> None:
     """Replace S delta at ``CORRECTION`` by the residual of the equation."""
     for i in range(6):
@@ -143,7 +143,7 @@ def _residual(b: Floats, h: float) -> None:
     cross(b, TWIST, _IMAGE, CORRECTION, -0.5 * h)
 
 
-@njit
+@njit_borrowed
 def _jacobian(b: Floats, h: float) -> None:
     """Write the negative derivative of the residual with respect to the rate to ``_MATRIX``.
 
@@ -166,7 +166,7 @@ def _jacobian(b: Floats, h: float) -> None:
     _add_rate_derivative(b, g)
 
 
-@njit
+@njit_borrowed
 def _add_rate_derivative(b: Floats, g: float) -> None:
     """Add g times the derivative of rate x* P with respect to the rate to ``_MATRIX``; g = h/2.
 
@@ -181,7 +181,7 @@ def _add_rate_derivative(b: Floats, g: float) -> None:
         )  # fmt: skip
 
 
-@njit
+@njit_borrowed
 def _subtract_skew(b: Floats, k: int, x: float, y: float, z: float) -> None:
     """Subtract the skew-symmetric matrix of (x, y, z) from a block (3, 3) at k in rows of 6."""
     b[k + 1] += z
@@ -192,7 +192,7 @@ def _subtract_skew(b: Floats, k: int, x: float, y: float, z: float) -> None:
     b[k + 13] -= x
 
 
-@njit
+@njit_borrowed
 def _factorise(b: Floats) -> None:
     """Replace ``_MATRIX`` by its LU factors in place, with the inverse pivots on the diagonal.
 
@@ -211,14 +211,14 @@ def _factorise(b: Floats) -> None:
         b[row + k] = inverse
 
 
-@njit
+@njit_borrowed
 def substitute(b: Floats) -> None:
     """Solve the linear equations with the factors in ``_MATRIX`` for ``CORRECTION``, in place."""
     _solve_lower(b)
     _solve_upper(b)
 
 
-@njit
+@njit_borrowed
 def _solve_lower(b: Floats) -> float:
     """Solve with the factor L; return an estimate of twice the kinetic energy of the solution."""
     energy = 0.0
@@ -232,7 +232,7 @@ def _solve_lower(b: Floats) -> float:
     return energy
 
 
-@njit
+@njit_borrowed
 def _solve_upper(b: Floats) -> None:
     for i in range(5, -1, -1):
         row = _MATRIX + 6 * i
@@ -242,7 +242,7 @@ def _solve_upper(b: Floats) -> None:
         b[CORRECTION + i] = total * b[row + i]
 
 
-@njit
+@njit_borrowed
 def rotation_rate(
     wx: float,
     wy: float,

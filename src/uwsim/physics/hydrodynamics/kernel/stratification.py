@@ -7,7 +7,7 @@ mixing of the water by moving bodies.
 
 from __future__ import annotations
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit, njit_borrowed
 from ....base.numerics.memory import Floats, Ints64, read_int64, view_doubles
 from ..columns import BODY_COLUMNS, LEVELS, N_LEVELS, SURFACE
 from . import fields as f
@@ -22,7 +22,7 @@ def density_ratio(m: int, o: Ints64, height: float) -> float:
     return 1.0 + density_excess(world, world[SURFACE] - height)
 
 
-@njit
+@njit_borrowed
 def density_excess(world: Floats, depth: float) -> float:
     """Return the density at a depth divided by that of the model's water, minus 1.
 

@@ -11,20 +11,31 @@ import math
 
 import numpy as np
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit_borrowed
 from ....base.numerics.memory import Floats
 from ..columns import BOX, CYLINDER, ELLIPSOID, SHRINKING_SPHERE, SPHERE
 
 CHORDS = 24
 """The number of chords of the quadrature over a cylinder."""
+MEMORY = 28
+"""The length of the scratch memory of `compute_submersion`."""
+_POINTS, _HEIGHTS, _PIECE = 9, 21, 25
 _CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) - 0.5
 _PATHS = np.array([[1, 3], [1, 5], [2, 3], [2, 6], [4, 5], [4, 6]])
 """The two middle corners of each of six tetrahedra that form a box; the others are 0 and 7."""
 
 
-@njit
+@njit_borrowed
 def compute_submersion(
-    shape: float, a: float, b: float, c: float, up_x: float, up_y: float, up_z: float, depth: float
+    shape: float,
+    a: float,
+    b: float,
+    c: float,
+    up_x: float,
+    up_y: float,
+    up_z: float,
+    depth: float,
+    memory: Floats,
 ) -> tuple[float, float, float, float]:
     """Return the fraction of a shape's volume that is under water, and the centre of that part.
 
@@ -38,20 +49,24 @@ def compute_submersion(
         up_y: its y component.
         up_z: its z component.
         depth: the depth of the shape's centre below the surface [m].
+        memory: scratch memory, (`MEMORY`,).
 
     Returns:
         The fraction 0..1, and the centre of the submerged part relative to the shape's centre, in
         the axes of the shape [m].
     """
-    size, up, centre = np.empty(3), np.empty(3), np.zeros(3)
+    size, up, centre = memory[:3], memory[3:6], memory[6:_POINTS]
+    centre[0] = centre[1] = centre[2] = 0.0
     size[0], size[1], size[2] = a, b, c
     up[0], up[1], up[2] = up_x, up_y, up_z
-    fraction = _fraction(shape, size, up, depth, centre)
+    fraction = _fraction(shape, size, up, depth, centre, memory)
     return fraction, centre[0], centre[1], centre[2]
 
 
-@njit
-def _fraction(shape: float, size: Floats, up: Floats, depth: float, centre: Floats) -> float:
+@njit_borrowed
+def _fraction(
+    shape: float, size: Floats, up: Floats, depth: float, centre: Floats, memory: Floats
+) -> float:
     if shape == SPHERE:
         return _ball(size[0], size[0], size[0], up, depth, centre)
     if shape == ELLIPSOID:
@@ -69,13 +84,13 @@ def _fraction(shape: float, size: Floats, up: Floats, depth: float, centre: Floa
     if depth <= -reach:
         return 0.0
     if shape == BOX:
-        return _box(size, up, depth, centre)
+        return _box(size, up, depth, centre, memory)
     if shape == CYLINDER:
-        return _cylinder(size[0], size[1], up, depth, centre)
+        return _cylinder(size[0], size[1], up, depth, centre, memory[_PIECE:])
     return 1.0
 
 
-@njit
+@njit_borrowed
 def _ball(a: float, b: float, c: float, up: Floats, depth: float, centre: Floats) -> float:
     """Return the fraction of an ellipsoid, which is a stretched unit sphere."""
     reach = math.sqrt((a * up[0]) ** 2 + (b * up[1]) ** 2 + (c * up[2]) ** 2)
@@ -93,33 +108,39 @@ def _ball(a: float, b: float, c: float, up: Floats, depth: float, centre: Floats
     return fraction
 
 
-@njit
-def _box(size: Floats, up: Floats, depth: float, centre: Floats) -> float:
+@njit_borrowed
+def _box(size: Floats, up: Floats, depth: float, centre: Floats, memory: Floats) -> float:
     """Return the fraction of a box, from the submerged parts of six tetrahedra."""
-    points = np.empty((4, 3))  # [m]
-    heights = np.empty(4)  # above the surface [m]
+    points = memory[_POINTS:_HEIGHTS]  # of a tetrahedron, (4, 3) by rows [m]
+    heights = memory[_HEIGHTS:_PIECE]  # above the surface [m]
     total = size[0] * size[1] * size[2] / 6.0
     volume: float = 0.0
     for path in range(6):
         for i in range(4):
             corner = 0 if i == 0 else (7 if i == 3 else _PATHS[path, i - 1])
             for axis in range(3):
-                points[i, axis] = _CORNERS[corner, axis] * size[axis]
-            heights[i] = points[i, 0] * up[0] + points[i, 1] * up[1] + points[i, 2] * up[2] - depth
+                points[3 * i + axis] = _CORNERS[corner, axis] * size[axis]
+            heights[i] = (
+                points[3 * i] * up[0]
+                + points[3 * i + 1] * up[1]
+                + points[3 * i + 2] * up[2]
+                - depth
+            )
         volume += _tetrahedron(points, heights, total, centre)
     if volume <= 0.0:
         return 0.0
-    centre /= volume
+    for axis in range(3):
+        centre[axis] /= volume
     fraction: float = volume / (6.0 * total)
     return fraction
 
 
-@njit
+@njit_borrowed
 def _tetrahedron(points: Floats, heights: Floats, total: float, moment: Floats) -> float:
     """Return the volume of a tetrahedron below the surface.
 
     Args:
-        points: the corners, which are sorted by height, (4, 3) [m].
+        points: the corners, which are sorted by height, (4, 3) by rows, (12,) [m].
         heights: the heights of the corners above the surface, (4,) [m].
         total: the volume of the tetrahedron [m3].
         moment: the sum to which the submerged volume times its centroid is added, (3,) [m4].
@@ -129,20 +150,23 @@ def _tetrahedron(points: Floats, heights: Floats, total: float, moment: Floats) 
         while j > 0 and heights[j] < heights[j - 1]:
             heights[j], heights[j - 1] = heights[j - 1], heights[j]
             for axis in range(3):
-                points[j, axis], points[j - 1, axis] = points[j - 1, axis], points[j, axis]
+                points[3 * j + axis], points[3 * j - 3 + axis] = (
+                    points[3 * j - 3 + axis],
+                    points[3 * j + axis],
+                )
             j -= 1
     if heights[0] >= 0.0:
         return 0.0
     if heights[3] <= 0.0:
         for axis in range(3):
-            mean = (points[0, axis] + points[1, axis] + points[2, axis] + points[3, axis]) / 4.0
+            mean = (points[axis] + points[3 + axis] + points[6 + axis] + points[9 + axis]) / 4.0
             moment[axis] += total * mean
         return total
     if heights[1] >= 0.0:  # one corner in the water
         return _tip(points, heights, 0, total, moment)
     if heights[2] < 0.0:  # one corner out of the water
         for axis in range(3):
-            mean = (points[0, axis] + points[1, axis] + points[2, axis] + points[3, axis]) / 4.0
+            mean = (points[axis] + points[3 + axis] + points[6 + axis] + points[9 + axis]) / 4.0
             moment[axis] += total * mean
         rest: float = total - _tip(points, heights, 3, -total, moment)
         return rest
@@ -155,11 +179,11 @@ def _tetrahedron(points: Floats, heights: Floats, total: float, moment: Floats) 
     v2 = (1.0 - a) * b * c * total
     v3 = (1.0 - b) * c * d * total
     for axis in range(3):
-        p, q = points[0, axis], points[1, axis]
-        ac = p + a * (points[2, axis] - p)
-        ad = p + b * (points[3, axis] - p)
-        bc = q + c * (points[2, axis] - q)
-        bd = q + d * (points[3, axis] - q)
+        p, q = points[axis], points[3 + axis]
+        ac = p + a * (points[6 + axis] - p)
+        ad = p + b * (points[9 + axis] - p)
+        bc = q + c * (points[6 + axis] - q)
+        bd = q + d * (points[9 + axis] - q)
         moment[axis] += v1 * (p + ac + ad + q) / 4.0
         moment[axis] += v2 * (ac + ad + q + bc) / 4.0
         moment[axis] += v3 * (ad + q + bc + bd) / 4.0
@@ -167,7 +191,7 @@ def _tetrahedron(points: Floats, heights: Floats, total: float, moment: Floats) 
     return wedge
 
 
-@njit
+@njit_borrowed
 def _tip(points: Floats, heights: Floats, corner: int, total: float, moment: Floats) -> float:
     """Return the positive volume of the corner that the surface cuts off a tetrahedron.
 
@@ -179,22 +203,23 @@ def _tip(points: Floats, heights: Floats, corner: int, total: float, moment: Flo
             share *= heights[corner] / (heights[corner] - heights[i])
     volume: float = share * total
     for axis in range(3):
-        moment_arm = 4.0 * points[corner, axis]
+        moment_arm = 4.0 * points[3 * corner + axis]
         for i in range(4):
             if i != corner:
                 cut = heights[corner] / (heights[corner] - heights[i])
-                moment_arm += cut * (points[i, axis] - points[corner, axis])
+                moment_arm += cut * (points[3 * i + axis] - points[3 * corner + axis])
         moment[axis] += volume * moment_arm / 4.0
     return abs(volume)
 
 
-@njit
-def _cylinder(radius: float, length: float, up: Floats, depth: float, centre: Floats) -> float:
+@njit_borrowed
+def _cylinder(
+    radius: float, length: float, up: Floats, depth: float, centre: Floats, piece: Floats
+) -> float:
     """Return the fraction of a cylinder, by a quadrature over rectangles parallel to its axis."""
     tilt = math.sqrt(up[0] * up[0] + up[1] * up[1])
     x, y = (up[0] / tilt, up[1] / tilt) if tilt > 1e-12 else (1.0, 0.0)
     volume, x_moment, z_moment = 0.0, 0.0, 0.0
-    piece = np.empty(3)
     for i in range(CHORDS):
         angle = math.pi * (i + 1) / (CHORDS + 1)
         half = radius * math.sin(angle)
@@ -212,13 +237,13 @@ def _cylinder(radius: float, length: float, up: Floats, depth: float, centre: Fl
     return volume / (length * radius * (CHORDS + 1))
 
 
-@njit
+@njit_borrowed
 def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece: Floats) -> None:
     """Compute the submerged part of the rectangle [-a, a] x [-b, b], where up . p <= depth.
 
     Its area and its first moments along x and z are written into ``piece``, (3,).
     """
-    piece[:] = 0.0
+    piece[0] = piece[1] = piece[2] = 0.0
     px, pz, ph = -a, -b, -a * up_x - b * up_z - depth
     for i in range(1, 5):
         qx = a if i in (1, 2) else -a
@@ -240,7 +265,7 @@ def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece
     piece[2] /= 3.0
 
 
-@njit
+@njit_borrowed
 def _edge(sx: float, sz: float, ex: float, ez: float, piece: Floats) -> None:
     """Add the area, and three times the first moments, of one edge by Green's theorem."""
     triangle_area = 0.5 * (sx * ez - ex * sz)
@@ -249,7 +274,7 @@ def _edge(sx: float, sz: float, ex: float, ez: float, piece: Floats) -> None:
     piece[2] += triangle_area * (sz + ez)
 
 
-@njit
+@njit_borrowed
 def _waterline(a: float, b: float, up_x: float, up_z: float, depth: float, piece: Floats) -> None:
     """Add the edge along the waterline, if the surface crosses the rectangle."""
     leave_x, leave_z, back_x, back_z, n_crossings = 0.0, 0.0, 0.0, 0.0, 0

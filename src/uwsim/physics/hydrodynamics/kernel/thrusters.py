@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit, njit_borrowed
 from ....base.numerics.memory import (
     Floats,
     Ints64,
@@ -62,7 +62,7 @@ def add_thrust(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work
     add_force(m, d, o, site, body, (thrust, 0.0, 0.0), table[c.TORQUE], work)
 
 
-@njit
+@njit_borrowed
 def inflow_loss(table: Floats, thrust: float, speed: float, density: float) -> float:
     """Return the fraction of its static thrust that a propeller loses by inflow.
 
@@ -83,7 +83,7 @@ def inflow_loss(table: Floats, thrust: float, speed: float, density: float) -> f
     return loss
 
 
-@njit
+@njit_borrowed
 def thrust_coefficient(table: Floats, advance: float) -> float:
     """Return KT at an advance ratio, linear between the points and extrapolated beyond the last."""
     n = int(table[c.N_ADVANCE])
@@ -96,7 +96,7 @@ def thrust_coefficient(table: Floats, advance: float) -> float:
     return coefficient
 
 
-@njit
+@njit_borrowed
 def lag_share(time_constant: float, time: float) -> float:
     """Return the fraction of a step input that a first-order lag reaches after a time [s], 0..1."""
     if time_constant <= 0.0:
@@ -107,7 +107,7 @@ def lag_share(time_constant: float, time: float) -> float:
     return -math.expm1(-x)
 
 
-@njit
+@njit_borrowed
 def static_thrust(table: Floats, command: float) -> float:
     """Return the static thrust for a command [N], with dead zone, thrust curve and saturation."""
     x = abs(command) - table[c.DEAD_ZONE]

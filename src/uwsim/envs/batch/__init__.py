@@ -1,0 +1,1 @@
+"""Rows of free vehicles with a task, stepped together by compiled code."""
