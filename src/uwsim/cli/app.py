@@ -145,7 +145,12 @@ COMMANDS: dict[str, Command] = {
         module="play",
         function="play",
         summary="Play a recording: to a program, to ROS, with ghosts in a scene.",
-        examples=("uwsim play dive.mcap --record dive.bag", "uwsim play dive.bag cirs --ros1"),
+        examples=(
+            "uwsim play dive.mcap --record dive.bag",
+            "uwsim play dive.bag cirs --ros1",
+            "uwsim play dive.mcap pool.xml --virtual-sensors --compose "
+            "camera=/camera/image_raw --record virtual.mcap",
+        ),
     ),
     "render": Command(
         module="render",
@@ -180,6 +185,8 @@ COMMANDS: dict[str, Command] = {
         examples=(
             "uwsim run cirs --for 10s --hz",
             "uwsim run my-scene.xml --program my_controller.py --for 1min --record dive.mcap",
+            "uwsim run bluerov2-scene --ardupilot --view",
+            "uwsim run pool.xml --ros1 --follow ros1:/odom --follow-axes enu",
         ),
     ),
     "scenario": Command(

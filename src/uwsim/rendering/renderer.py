@@ -44,7 +44,7 @@ from .projection import Projection, projection
 from .rendered_image import RenderedImage
 from .surface.mirror_view import find_mirror_view
 from .surface.surface_pass import SurfacePass, find_visible_range
-from .targets import COLOUR_FORMATS, LIGHT, RADIANCE, TARGETS, Targets
+from .targets import LIGHT, RADIANCE, TARGETS, Targets, check_targets
 from .water import Light, Water, find_sun_direction
 
 __all__ = ["RenderedImage", "Renderer"]
@@ -155,12 +155,7 @@ class Renderer:
             contents: the lamps, projector, surface and particles.
         """
         names = frozenset(targets)
-        if not names or not names <= set(TARGETS) or colour not in COLOUR_FORMATS:
-            raise ValueError(
-                f"cannot draw {sorted(names)} as {colour!r}: {TARGETS}, {COLOUR_FORMATS}"
-            )
-        if colour == LIGHT and water.physical_water is None:
-            raise ValueError("the fog law has colours, not light; expected physical water")
+        check_targets(names, colour, has_physical_water=water.physical_water is not None)
         lamps, surface = tuple(contents.lamps), contents.surface
         if len(lamps) > MAX_LAMPS:
             raise ValueError(f"{len(lamps)} lamps are more than {MAX_LAMPS}")

@@ -31,6 +31,14 @@ _COLOUR_TYPES = {"uint8": "f1", "linear16": "nu2", LIGHT: "f4", RADIANCE: "f4"}
 T = TypeVar("T", bound=np.generic)
 
 
+def check_targets(names: frozenset[str], colour: str, *, has_physical_water: bool) -> None:
+    """Raise ValueError if no image has these targets or colours of this format."""
+    if not names or not names <= set(TARGETS) or colour not in COLOUR_FORMATS:
+        raise ValueError(f"cannot draw {sorted(names)} as {colour!r}: {TARGETS}, {COLOUR_FORMATS}")
+    if colour == LIGHT and not has_physical_water:
+        raise ValueError("the fog law has colours, not light; expected physical water")
+
+
 class Targets:
     """A framebuffer with the requested targets.
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from .help_texts import CONNECTIONS, option
+from .help_texts import AUTOPILOTS, option
 
 ArduPilotOption = Annotated[
     bool,
     option(
-        CONNECTIONS,
+        AUTOPILOTS,
         "--ardupilot",
         help="Let ArduPilot steer, in lock-step through its JSON physics backend: the vehicles "
         "with <u:ardupilot>, or else the first vehicle with dynamics. Start ArduPilot with "

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from ...errors import BadSetting, ErrorCollector
 from ...middleware.pacing import MIN_REAL_TIME_FACTOR
 from .connections import ConnectionOptions, DomainOption, Ros1HostOption, Ros1Option, Ros2Option
-from .help_texts import CONNECTIONS, option
+from .help_texts import PROGRAMS, option
 from .secrets import read_client_secret
 from .web_options import (
     CLIENT_LIMIT,
@@ -33,7 +33,7 @@ class ClientOptions:
     client: Annotated[
         str | None,
         option(
-            CONNECTIONS,
+            PROGRAMS,
             "--client",
             metavar="NAME",
             help="The algorithm is an external program with this name in the result: in lock-step, "
@@ -45,7 +45,7 @@ class ClientOptions:
     sync: Annotated[
         str | None,
         option(
-            CONNECTIONS,
+            PROGRAMS,
             "--sync",
             metavar="WHAT",
             help="How simulation time advances. ack: the client joins and acknowledges each tick. "
@@ -57,7 +57,7 @@ class ClientOptions:
     output: Annotated[
         list[str] | None,
         option(
-            CONNECTIONS,
+            PROGRAMS,
             "--output",
             metavar="TOPIC=RATE|INPUT",
             help="For --sync output: a topic that the client publishes at a rate, as "
@@ -68,7 +68,7 @@ class ClientOptions:
     settle: Annotated[
         float | None,
         option(
-            CONNECTIONS,
+            PROGRAMS,
             "--settle",
             metavar="SECONDS",
             help="For --sync output and step, over ROS: the greatest delay of messages, in wall "
@@ -78,7 +78,7 @@ class ClientOptions:
     speed: Annotated[
         float | None,
         option(
-            CONNECTIONS,
+            PROGRAMS,
             "--speed",
             metavar="X",
             help="For --sync none: simulation time per real time.  [1]",

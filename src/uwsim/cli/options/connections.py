@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from ...errors import BadSetting, ErrorCollector, RunFailed
 from ...middleware.pacing import MIN_REAL_TIME_FACTOR
-from .help_texts import CONNECTIONS, option
+from .help_texts import CLOCK, ROS, option
 from .secrets import read_client_secret
 from .web_options import (
     CLIENT_LIMIT,
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 Ros1Option = Annotated[
     bool,
     option(
-        CONNECTIONS,
+        ROS,
         "--ros1",
         help="Run as a node of ROS 1: topics, services, /clock and /tf, at the master of "
         "ROS_MASTER_URI; a master is started if none runs. ROS need not be installed.",
@@ -47,7 +47,7 @@ Ros1Option = Annotated[
 Ros1HostOption = Annotated[
     str | None,
     option(
-        CONNECTIONS,
+        ROS,
         "--ros1-host",
         metavar="ADDRESS",
         help="Address of this computer for ROS 1 nodes on other computers [127.0.0.1: nodes on "
@@ -58,7 +58,7 @@ Ros1HostOption = Annotated[
 Ros2Option = Annotated[
     bool,
     option(
-        CONNECTIONS,
+        ROS,
         "--ros2",
         help="Run as a node of ROS 2: topics, services, /clock. With rclpy if it can be imported, "
         "else with DDS (UWSIM_ROS2=rclpy|dds selects one). On this computer only, unless "
@@ -68,9 +68,7 @@ Ros2Option = Annotated[
 
 DomainOption = Annotated[
     int | None,
-    option(
-        CONNECTIONS, "--domain", metavar="N", help="ROS 2 domain, 0 to 232 [ROS_DOMAIN_ID, or 0]."
-    ),
+    option(ROS, "--domain", metavar="N", help="ROS 2 domain, 0 to 232 [ROS_DOMAIN_ID, or 0]."),
 ]
 
 
@@ -85,7 +83,7 @@ class ConnectionOptions:
     speed: Annotated[
         float | None,
         option(
-            CONNECTIONS,
+            CLOCK,
             "--speed",
             metavar="X",
             help="Simulation time per real time; 0 is as fast as possible [1 with a connection "
@@ -95,7 +93,7 @@ class ConnectionOptions:
     max_lag: Annotated[
         float | None,
         option(
-            CONNECTIONS,
+            CLOCK,
             "--max-lag",
             metavar="SECONDS",
             help="The greatest lag, for hardware in the loop: the run ends when the simulation is "

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, cast
 
 from ...errors import BadSetting, ErrorCollector, UnknownName, did_you_mean
 from .completion import complete_names
-from .help_texts import CONNECTIONS, option
+from .help_texts import FOLLOW, option
 
 if TYPE_CHECKING:
     from ...devices.motion.follow_pose import Axes, FollowPoseSpec
@@ -35,7 +35,7 @@ class FollowOptions:
     follow: Annotated[
         str | None,
         option(
-            CONNECTIONS,
+            FOLLOW,
             "--follow",
             metavar="[VEHICLE=]SOURCE",
             help="A vehicle, the first without a name, follows poses: ros1:/odom, ros2:/odom or "
@@ -45,7 +45,7 @@ class FollowOptions:
     axes: Annotated[
         str | None,
         option(
-            CONNECTIONS,
+            FOLLOW,
             "--follow-axes",
             metavar="localized|enu|ned",
             help="Axes of the poses: of the scene file, of REP 103, or north, east, down "
@@ -56,7 +56,7 @@ class FollowOptions:
     delay: Annotated[
         float,
         option(
-            CONNECTIONS,
+            FOLLOW,
             "--follow-delay",
             metavar="SECONDS",
             help="Time from the measurement of a pose to its arrival, over which it is predicted.",
@@ -67,7 +67,7 @@ class FollowOptions:
     timeout: Annotated[
         float,
         option(
-            CONNECTIONS,
+            FOLLOW,
             "--follow-timeout",
             metavar="SECONDS",
             help="Time without a pose after which the last one is stale.",
@@ -78,7 +78,7 @@ class FollowOptions:
     stop_when_stale: Annotated[
         bool,
         option(
-            CONNECTIONS,
+            FOLLOW,
             "--stop-when-stale",
             help="Sensors publish nothing while poses are stale [they observe from the last pose].",
         ),

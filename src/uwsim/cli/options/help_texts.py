@@ -1,7 +1,7 @@
 """The help texts of commands, and the errors of their options.
 
-Options are shown in the groups that `option` sets; positional arguments are shown by their metavar,
-such as ``SCENE``.
+Options are shown in the groups that `option` sets, after those of `COMMON_OPTIONS`; positional
+arguments are shown by their metavar, such as ``SCENE``.
 """
 
 from __future__ import annotations
@@ -18,17 +18,47 @@ from ...errors import BadSetting, ErrorCollector
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 """The help options of ``uwsim`` and of each command."""
 
+FIRST_OPTIONS = "Common options"
 INPUT = "Input"
 RUN = "Repeats and processes"
 SEARCH = "Search"
 COMPARISON = "Comparison"
-CONNECTIONS = "Connections"
+AUTOPILOTS = "Autopilots"
+ROS = "ROS"
+PROGRAMS = "Programs outside"
+CLOCK = "Clock, and hardware in the loop"
+LIVE_VIEW = "Live view and pilot"
+FOLLOW = "Poses of a real vehicle, live"
+LOG_POSES = "Poses of a log"
+COMPOSITION = "Virtual objects in real images"
 FILES = "Your own files and code"
 OUTPUT = "Output"
 OTHER_OPTIONS = "Options"
 """The titles of the groups of options in help texts."""
-GROUP_ORDER = (INPUT, COMPARISON, SEARCH, CONNECTIONS, RUN, OUTPUT, FILES, OTHER_OPTIONS)
+GROUP_ORDER = (
+    FIRST_OPTIONS,
+    INPUT,
+    COMPARISON,
+    SEARCH,
+    RUN,
+    OUTPUT,
+    LIVE_VIEW,
+    ROS,
+    PROGRAMS,
+    AUTOPILOTS,
+    CLOCK,
+    LOG_POSES,
+    FOLLOW,
+    COMPOSITION,
+    FILES,
+    OTHER_OPTIONS,
+)
 """The order of the groups in help texts."""
+COMMON_OPTIONS = {
+    "run": ("--for", "--program", "--view", "--record", "--hz", "--set", "--seed"),
+    "play": ("--for", "--program", "--commands", "--virtual-sensors", "--record", "--hz"),
+}
+"""The options that the help of a command with many groups shows first, in this order."""
 
 Completion = Callable[[str], list[tuple[str, str]]]
 """A function from an incomplete word to its completions, each with a description."""
@@ -72,10 +102,13 @@ class ErrorCollectingCommand(TyperCommand):
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write arguments and options, group by group."""
         groups: dict[str, list[tuple[str, str]]] = {}
-        for parameter in self._options(ctx):
-            record = parameter.get_help_record(ctx)
+        common_names = COMMON_OPTIONS.get(self.name or "", ())
+        options = {parameter.opts[0]: parameter for parameter in self._options(ctx)}
+        for name in sorted(options, key=lambda name: _find_rank(name, common_names)):
+            record = options[name].get_help_record(ctx)
+            group = FIRST_OPTIONS if name in common_names else options[name].rich_help_panel
             if record is not None:
-                groups.setdefault(parameter.rich_help_panel or OTHER_OPTIONS, []).append(record)
+                groups.setdefault(group or OTHER_OPTIONS, []).append(record)
         arguments = [(_metavar(argument), argument.help or "") for argument in self._arguments(ctx)]
         if arguments:
             with formatter.section("Arguments"):
@@ -90,6 +123,11 @@ class ErrorCollectingCommand(TyperCommand):
 
     def _options(self, ctx: Any) -> Sequence[Any]:
         return [entry for entry in self.get_params(ctx) if entry.param_type_name == "option"]
+
+
+def _find_rank(name: str, common_names: Sequence[str]) -> int:
+    """Return the place of an option among the common ones; all others follow them."""
+    return common_names.index(name) if name in common_names else len(common_names)
 
 
 def _metavar(argument: Any) -> str:

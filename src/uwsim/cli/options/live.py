@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...errors import BadSetting
-from .help_texts import CONNECTIONS, option
+from .help_texts import LIVE_VIEW, option
 
 if TYPE_CHECKING:
     from ...viewer.live.session import LiveSession
@@ -25,7 +25,7 @@ class LiveOptions:
     view: Annotated[
         bool,
         option(
-            CONNECTIONS,
+            LIVE_VIEW,
             "--view",
             help="Show the run in a browser, at the printed address; and pilot. On this computer "
             "only.",
@@ -34,7 +34,7 @@ class LiveOptions:
     port: Annotated[
         int | None,
         option(
-            CONNECTIONS,
+            LIVE_VIEW,
             "--port",
             metavar="N",
             min=0,
@@ -45,7 +45,7 @@ class LiveOptions:
     pilot_mapping: Annotated[
         Path | None,
         option(
-            CONNECTIONS,
+            LIVE_VIEW,
             "--pilot-mapping",
             metavar="FILE.toml",
             help="File that changes the default mapping of keys, gamepad and sticks.",

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from .help_texts import CONNECTIONS, option
+from .help_texts import AUTOPILOTS, option
 
 Px4Option = Annotated[
     bool,
     option(
-        CONNECTIONS,
+        AUTOPILOTS,
         "--px4",
         help="Let PX4 steer, in lock-step over its HIL messages at TCP port 4560: the vehicles "
         "with <u:px4>, or else the first vehicle with dynamics. Start PX4 with "

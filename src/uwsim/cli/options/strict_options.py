@@ -9,7 +9,7 @@ from typing import Annotated
 
 from ...errors import BadSetting, ErrorCollector
 from .connections import ConnectionOptions
-from .help_texts import CONNECTIONS, OUTPUT, option
+from .help_texts import CLOCK, option
 
 MAX_DEADLINE_MS = 60_000.0
 """The greatest deadline [ms]."""
@@ -24,7 +24,7 @@ class StrictOptions:
     is_strict: Annotated[
         bool,
         option(
-            CONNECTIONS,
+            CLOCK,
             "--strict",
             help="Real time, in which late data is an error, for hardware in the loop: open the "
             "byte streams of the scene, report what was late, and end with status 3 if "
@@ -34,7 +34,7 @@ class StrictOptions:
     deadline: Annotated[
         float | None,
         option(
-            CONNECTIONS,
+            CLOCK,
             "--deadline",
             metavar="MS",
             help="The time by which steps and messages may be late with --strict [10].",
@@ -43,7 +43,7 @@ class StrictOptions:
     expected_inputs: Annotated[
         list[str] | None,
         option(
-            CONNECTIONS,
+            CLOCK,
             "--expect",
             metavar="TOPIC=HZ",
             help="The rate at which messages of a topic are expected with --strict, such as "
@@ -53,7 +53,7 @@ class StrictOptions:
     latency: Annotated[
         Path | None,
         option(
-            OUTPUT,
+            CLOCK,
             "--latency",
             metavar="FILE.png",
             help="Plot the delays of a run with --strict: steps, outputs, and commands.",

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from ...errors import BadSetting, ErrorCollector
 from .completion import complete_names
-from .help_texts import INPUT, OUTPUT, option
+from .help_texts import COMPOSITION, LOG_POSES, option
 
 if TYPE_CHECKING:
     from ...simulation import Simulation
@@ -20,7 +20,7 @@ GAP_POLICIES = ("hold", "interpolate", "refuse")
 GapsOption = Annotated[
     str,
     option(
-        INPUT,
+        LOG_POSES,
         "--gaps",
         metavar="hold|interpolate|refuse",
         help="Between poses more than --max-gap apart: hold the last one, move on uniformly, "
@@ -32,7 +32,7 @@ GapsOption = Annotated[
 MaxGapOption = Annotated[
     float,
     option(
-        INPUT,
+        LOG_POSES,
         "--max-gap",
         metavar="SECONDS",
         help="The longest time between two poses that is no gap.",
@@ -46,7 +46,7 @@ MaxGapOption = Annotated[
 MappingOption = Annotated[
     Path | None,
     option(
-        INPUT,
+        LOG_POSES,
         "--mapping",
         metavar="FILE.toml",
         help="Mapping file of the log: columns, topics, units and frames.",
@@ -62,7 +62,7 @@ class FollowLogOptions:
     virtual_sensors: Annotated[
         bool,
         option(
-            INPUT,
+            LOG_POSES,
             "--virtual-sensors",
             help="A vehicle of the scene follows the poses of the log at every step; the scene "
             "publishes on /virtual/TOPIC. The log may be a recording, CSV, .bin or .tlog.",
@@ -71,7 +71,7 @@ class FollowLogOptions:
     vehicle: Annotated[
         str | None,
         option(
-            INPUT,
+            LOG_POSES,
             "--vehicle",
             metavar="NAME",
             help="The vehicle that follows the log [that of the log's name, or the first].",
@@ -101,7 +101,7 @@ class CompositionOptions:
     compose: Annotated[
         str | None,
         option(
-            INPUT,
+            COMPOSITION,
             "--compose",
             metavar="CAMERA=TOPIC",
             help="Draw virtual objects into the real images of TOPIC, as a camera of the scene "
@@ -111,7 +111,7 @@ class CompositionOptions:
     real_objects: Annotated[
         list[str] | None,
         option(
-            INPUT,
+            COMPOSITION,
             "--real",
             metavar="OBJECT",
             help="An object of the scene that is in the real images, besides the terrain and the "
@@ -121,7 +121,7 @@ class CompositionOptions:
     depth_topic: Annotated[
         str | None,
         option(
-            INPUT,
+            COMPOSITION,
             "--depth-topic",
             metavar="TOPIC",
             help="Depth images of the real camera (32FC1 in m, 16UC1 in mm), which hide virtual "
@@ -131,7 +131,7 @@ class CompositionOptions:
     add_fog: Annotated[
         float,
         option(
-            INPUT,
+            COMPOSITION,
             "--add-fog",
             metavar="DENSITY",
             help="Fog added over real and virtual pixels [1/m].",
@@ -142,7 +142,7 @@ class CompositionOptions:
     add_water: Annotated[
         bool,
         option(
-            INPUT,
+            COMPOSITION,
             "--add-water",
             help="Add the physical water of the scene over real images, taken in clear water.",
         ),
@@ -150,7 +150,7 @@ class CompositionOptions:
     add_particles: Annotated[
         bool,
         option(
-            INPUT,
+            COMPOSITION,
             "--add-particles",
             help="Add the particles of the scene's physical water, such as marine snow.",
         ),
@@ -158,7 +158,7 @@ class CompositionOptions:
     assume_range: Annotated[
         float | None,
         option(
-            INPUT,
+            COMPOSITION,
             "--assume-range",
             metavar="METRES",
             help="The range of real surfaces that neither the scene nor depth images show "
@@ -169,12 +169,14 @@ class CompositionOptions:
     ] = None
     shadows: Annotated[
         bool,
-        option(INPUT, "--shadows", help="Virtual objects cast shadows of the sun on real ones."),
+        option(
+            COMPOSITION, "--shadows", help="Virtual objects cast shadows of the sun on real ones."
+        ),
     ] = False
     frames: Annotated[
         Path | None,
         option(
-            OUTPUT,
+            COMPOSITION,
             "--frames",
             metavar="DIR",
             help="Also write the composed images into a new folder, as PNG files.",

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ...errors import BadSetting
-from .help_texts import CONNECTIONS, option
+from .help_texts import PROGRAMS, option
 from .secrets import read_web_token
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ CLIENT_LIMIT = 60.0
 WebOption = Annotated[
     int | None,
     option(
-        CONNECTIONS,
+        PROGRAMS,
         "--web",
         metavar="PORT",
         help="Serve topics and services by WebSocket (rosbridge protocol) at this port; 9090 is "
@@ -33,7 +33,7 @@ WebOption = Annotated[
 WebHostOption = Annotated[
     str | None,
     option(
-        CONNECTIONS,
+        PROGRAMS,
         "--web-host",
         metavar="ADDRESS",
         help="Address of the --web server; other computers need a token [127.0.0.1].",
@@ -42,13 +42,13 @@ WebHostOption = Annotated[
 
 WebTokenOption = Annotated[
     str | None,
-    option(CONNECTIONS, "--web-token", metavar="TOKEN", help="Not accepted any more.", hidden=True),
+    option(PROGRAMS, "--web-token", metavar="TOKEN", help="Not accepted any more.", hidden=True),
 ]
 
 WebTokenFileOption = Annotated[
     Path | None,
     option(
-        CONNECTIONS,
+        PROGRAMS,
         "--web-token-file",
         metavar="FILE",
         help="File with the token of web clients, as in ws://HOST:PORT/?token=TOKEN "
@@ -59,7 +59,7 @@ WebTokenFileOption = Annotated[
 ClientSecretFileOption = Annotated[
     Path | None,
     option(
-        CONNECTIONS,
+        PROGRAMS,
         "--client-secret-file",
         metavar="FILE",
         help="File with a secret for the join of the --client, so that no other program joins "
@@ -70,7 +70,7 @@ ClientSecretFileOption = Annotated[
 WebOriginOption = Annotated[
     list[str] | None,
     option(
-        CONNECTIONS,
+        PROGRAMS,
         "--web-origin",
         metavar="ORIGIN",
         help="Origin of pages that may connect, such as https://example.org, besides pages of this "
@@ -81,7 +81,7 @@ WebOriginOption = Annotated[
 ClientOption = Annotated[
     list[str] | None,
     option(
-        CONNECTIONS,
+        PROGRAMS,
         "--client",
         metavar="NAME",
         help="An external program, in lock-step: simulation time waits until it has joined under "
@@ -92,7 +92,7 @@ ClientOption = Annotated[
 ClientLimitOption = Annotated[
     float,
     option(
-        CONNECTIONS,
+        PROGRAMS,
         "--client-limit",
         metavar="SECONDS",
         help="Time limit of a --client for its join and for each answer, in wall time; after it "

@@ -113,3 +113,12 @@ def cells_of(measures: Sequence[TriggeredMeasure], status: str, status_reason: s
                 {f"{name}.{detail}": message for detail, message in measure.reasons.items()}
             )
     return cells
+
+
+def collect_remarks(measures: Sequence[TriggeredMeasure]) -> tuple[str, ...]:
+    """Return the remarks of measures on a level, each once, with the names of its measures."""
+    names: dict[str, list[str]] = {}
+    for measure in measures:
+        for remark in measure.measure.remarks:
+            names.setdefault(remark, []).append(measure.spec.name)
+    return tuple(f"{', '.join(measure_names)}: {remark}" for remark, measure_names in names.items())

@@ -42,7 +42,7 @@ from ..planning.trial_cache import TrialCache, compile_plan
 from .error_floor import ErrorFloor
 from .fingerprint import Fingerprinter
 from .known_corners import known_corners
-from .level_row import LevelRow, TrialEnd, cells_of
+from .level_row import LevelRow, TrialEnd, cells_of, collect_remarks
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
@@ -54,7 +54,7 @@ from .pilot_topics import pilot_topics
 from .status import SIMULATION_ERROR, StatusMonitor, to_line
 from .trial_observer import TrialObserver
 from .trial_recorder import TrialRecorder
-from .triggered_measure import TriggeredMeasure, finite_value
+from .triggered_measure import TriggeredMeasure, find_ending, finite_value, tick_all
 from .visibility import Fact, TargetMotion, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
@@ -306,11 +306,11 @@ class _Execution:
         measures = self._bind_measures()
         settling, ramp = round(SETTLING_TIME / plan.timestep), round(RAMP_TIME / plan.timestep)
         initial_values = initial_level(self._updater)
-        _tick(measures)
+        tick_all(measures)
         for _ in range(settling):
             ramp_level(self._updaters, initial_values)
             simulation.advance()
-            _tick(measures)
+            tick_all(measures)
         for i in range(1, ramp + 1):
             ramp_level(self._updaters, blend(self._updater, level, i / ramp))
             simulation.advance()
@@ -363,18 +363,18 @@ class _Execution:
         length = interval(self._updater)
         n_steps = round((MAX_TASK_DURATION if length is None else length) / plan.timestep)
         is_stopped, ending = False, None
-        _tick(measures)
+        tick_all(measures)
         monitor.read_reports(simulation.time)
         for _ in range(n_steps):
             simulation.advance()
             self._n_measured += 1
-            _tick(measures)
+            tick_all(measures)
             self._live_topics.update(level, self._n_measured * plan.timestep, measures)
             if self._phases is not None:
                 self._phases.update(measures)
             monitor.read_reports(simulation.time)
             is_stopped = not self._triggers.is_open()
-            ending = _end_of_level(measures)
+            ending = find_ending(measures)
             # an independent level may end early: no later level continues from its scene
             is_over = self._trial.is_independent and monitor.failure is not None
             if is_stopped or ending is not None or is_over:
@@ -425,7 +425,7 @@ class _Execution:
                 measure.spec.name: log_columns(measure.measure) for measure in logged_measures
             },
             fingerprint=self._fingerprinter.fingerprint,
-            remarks=_remarks(measures),
+            remarks=collect_remarks(measures),
             snapshots=()
             if self._plan.is_blind or status == SIMULATION_ERROR
             else all_snapshots(simulation, measures, self._phases, is_tracking=status == "ok"),
@@ -436,25 +436,3 @@ def _link_notes(simulation: Simulation) -> list[str]:
     """Return a note for each connection to ArduPilot with lost, repeated or invalid packets."""
     links = [part for part in simulation.world.devices if isinstance(part, ArduPilotLink)]
     return [link.describe() for link in links if link.state.exchange.has_events]
-
-
-def _tick(measures: list[TriggeredMeasure]) -> None:
-    for measure in measures:
-        measure.tick()
-
-
-def _remarks(measures: list[TriggeredMeasure]) -> tuple[str, ...]:
-    """Return the remarks of measures on a level, each once, with the names of its measures."""
-    names: dict[str, list[str]] = {}
-    for measure in measures:
-        for remark in measure.measure.remarks:
-            names.setdefault(remark, []).append(measure.spec.name)
-    return tuple(f"{', '.join(measure_names)}: {remark}" for remark, measure_names in names.items())
-
-
-def _end_of_level(measures: list[TriggeredMeasure]) -> str | None:
-    """Return the reason for which a measure ends the level; None if no measure does."""
-    for measure in measures:
-        if reason := measure.measure.ends_level:
-            return reason
-    return None

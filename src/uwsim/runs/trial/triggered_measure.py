@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from numbers import Real
 
 from ...benchmark.measures import MeasureSpec
@@ -101,3 +102,17 @@ class TriggeredMeasure:
         self.log.append((time, *(finite_value(value)[0] for value in log_sample(self.measure))))
         n_next = math.floor(time / self.spec.log + 1e-9) + 1
         self._log_due = math.ceil(n_next * self.spec.log / timestep - 1e-9)
+
+
+def tick_all(measures: Sequence[TriggeredMeasure]) -> None:
+    """Start, update or stop measures after a step."""
+    for measure in measures:
+        measure.tick()
+
+
+def find_ending(measures: Sequence[TriggeredMeasure]) -> str | None:
+    """Return the reason for which a measure ends the level; None if no measure does."""
+    for measure in measures:
+        if reason := measure.measure.ends_level:
+            return reason
+    return None

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import multiply_matrices, product
+from ...cameras.exposure import Displacement
 from ...model.parts import Part
 from ...physics.poses import Poses
 
@@ -50,6 +51,14 @@ class PartPoses:
         for index in self._unattached_parts:
             poses_now[index] = self.world_from_mesh(self._parts[index])
         return poses_now
+
+    def compute_displaced(self, displacement: Displacement, vehicle_names: Sequence[str]) -> Array:
+        """Return the poses of all parts, with a vehicle where it is at another time, (n, 4, 4)."""
+        poses = self.compute_all()
+        for index, part in enumerate(self._parts):
+            if part.vehicle is not None and vehicle_names[part.vehicle] == displacement.vehicle:
+                poses[index] = product(displacement.matrix, poses[index])
+        return poses
 
 
 @njit

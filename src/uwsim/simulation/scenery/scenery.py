@@ -366,7 +366,9 @@ class Scenery:
                 self._projector = make_projector(*self.mounted_projector)
             self._drawn_version = self._engine.poses.version
         if displacement is not None:
-            self._displace(renderer, displacement)
+            poses = self._poses.compute_displaced(displacement, self._vehicle_names)
+            renderer.place_all(self._handles, poses)
+            self._drawn_version = -1  # the next image resets them
         self._heap_models.update(renderer)
         lens_image = None if intrinsics.lens is None else map_lens(intrinsics)
         lit_lamps = [lamp for lamp in self.mounted_lamps if lamp.is_on]
@@ -394,16 +396,6 @@ class Scenery:
             ),
         )
         return image if lens_image is None else map_image(image, intrinsics, lens_image)
-
-    def _displace(self, renderer: Renderer, displacement: Displacement) -> None:
-        """Place the parts of a vehicle where it is at another time; the next image resets them."""
-        poses = self._poses.compute_all()
-        for index, part in enumerate(self.parts):
-            vehicle = None if part.vehicle is None else self._vehicle_names[part.vehicle]
-            if vehicle == displacement.vehicle:
-                poses[index] = product(displacement.matrix, poses[index])
-        renderer.place_all(self._handles, poses)
-        self._drawn_version = -1
 
     @property
     def renderer_name(self) -> str:
