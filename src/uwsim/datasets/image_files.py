@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import name_file_in_errors
+from ..errors import ResultError, name_file_in_errors
 from ..messages.compressed import encode_png
 
 JPEG_QUALITY = 95
@@ -49,3 +49,11 @@ def write_file(path: Path, content: bytes) -> None:
     """Write a file; a file that an interruption leaves incomplete is written again."""
     with name_file_in_errors(path):
         path.write_bytes(content)
+
+
+def read_values(path: Path) -> npt.NDArray[np.uint16]:
+    """Return the numbers of a mask or a depth image, (h, w); raise ResultError if damaged."""
+    values = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    if values is None or values.ndim != 2:
+        raise ResultError(f"{path}: is no image of the data set.")
+    return np.asarray(values, dtype=np.uint16)

@@ -11,7 +11,9 @@ from ..scene_draw import record_line
 from ..splits import SPLITS
 
 
-def write_plain(request: DatasetRequest, records: Sequence[dict[str, Any]]) -> None:
+def write_plain(
+    request: DatasetRequest, records: Sequence[dict[str, Any]], classes: Sequence[str]
+) -> None:
     """Write ``labels.jsonl``, and the paths of the images of each split in a text file."""
     lines = [record_line(record) + "\n" for record in records]
     write_text(request.out / "labels.jsonl", "".join(lines))
