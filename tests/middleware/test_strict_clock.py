@@ -123,12 +123,32 @@ def test_an_output_after_its_due_time_is_late() -> None:
     assert report.output_age.max_delay == pytest.approx(0.080, abs=0.001)
 
 
-def test_an_output_that_cannot_be_sent_is_missing() -> None:
+def test_an_output_has_no_reader_at_first_and_is_missing_when_the_reader_has_gone() -> None:
     wall = Wall()
     wall.step()
     wall.clock.note_unsent("dvl")
     stream = wall.stream("dvl")
-    assert (stream.n, stream.n_missing) == (0, 1)
+    assert (stream.n, stream.n_missing, stream.n_unread) == (0, 0, 1)
+    assert wall.clock.report().n_errors == 0
+    wall.clock.note_sent("dvl", wall.simulation_time, wall.simulation_time)
+    wall.clock.note_unsent("dvl")
+    stream = wall.stream("dvl")
+    assert (stream.n, stream.n_missing, stream.n_unread) == (1, 1, 1)
+    assert wall.clock.report().n_errors == 1
+
+
+def test_a_line_that_keeps_its_bytes_for_nobody_has_no_reader() -> None:
+    wall, readers = Wall(), list[str]()
+    wall.clock.watch_output("pty", lambda: bool(readers))
+    wall.step()
+    for _ in range(3):
+        wall.clock.note_sent("pty", wall.simulation_time, wall.simulation_time)
+    wall.clock.note_unsent("pty")
+    stream = wall.stream("pty")
+    assert (stream.n, stream.n_missing, stream.n_unread, stream.lateness.n) == (0, 0, 4, 0)
+    readers.append("socat")
+    stream = wall.stream("pty")
+    assert (stream.n, stream.n_missing, stream.n_unread, stream.lateness.n) == (3, 1, 0, 3)
 
 
 def test_percentiles_are_those_of_sorted_delays_to_five_percent() -> None:

@@ -35,6 +35,10 @@ class TerminalStream(ByteStream, Protocol):
     """A stream of a pseudo-terminal, whose path the other side has to know."""
 
     @property
+    def has_reader(self) -> bool:
+        """True if a program has read sent bytes; the terminal keeps some that nobody reads."""
+
+    @property
     def path(self) -> str:
         """The path of the terminal."""
 

@@ -13,8 +13,12 @@ from matplotlib.figure import Figure
 from .style import GREY, PALETTE, styled_figure, write_note
 
 SIZE = (7.4, 3.2)  # [inch]
-BINS_PER_DECADE, N_MERGED = 50, 5
-"""The number of bins of a decade, and of those that the histogram shows as one."""
+N_MERGED = 5
+"""The number of bins, of 50 a decade, that the histogram shows as one."""
+MAX_SHARE = 100.0
+"""The greatest share [%], above which the axis has no numbers."""
+HEAD_ROOM = 1.3
+"""The height of the left axes per largest share, which leaves room for the legend."""
 SHORTEST_MS = 0.01
 """The shortest delay on the axes [ms]; shorter ones are drawn there."""
 
@@ -57,8 +61,9 @@ def draw_latency_plot(
         for i, delay in enumerate(lateness):
             _draw_exceedance(right, delay, PALETTE[i % len(PALETTE)], i)
         left.set_xlabel("delay [ms]")
-        left.set_ylabel("share of delays per decade")
-        left.set_ylim(bottom=0.0)
+        left.set_ylabel("share of delays in a bin [%]")
+        left.set_ylim(0.0, HEAD_ROOM * left.get_ylim()[1])
+        left.set_yticks([tick for tick in left.get_yticks() if tick <= MAX_SHARE])
         right.set_xlabel("lateness [ms]")
         right.set_ylabel("share that is later")
         right.set_yscale("log")
@@ -80,17 +85,17 @@ def draw_latency_plot(
             if axes.get_legend_handles_labels()[0]:
                 axes.legend(loc="upper right" if axes is left else "lower left")
         numbers = ", ".join(f"{delay.name} {delay.n}" for delay in lateness)
-        write_note(figure, f"number: {numbers}; what is early is in the shares, and is not drawn")
+        write_note(figure, f"number: {numbers}; 10 bins a decade; what is early is not drawn")
     return figure
 
 
 def _draw_density(axes: Axes, delay: DelayCounts, colour: str) -> None:
-    """Draw the share of delays per decade, in ten bins a decade."""
+    """Draw the share of delays in each of ten bins a decade."""
     counts = delay.counts[1:]  # without the bin of the shortest delays
     if not counts.any():
         return
     starts = np.arange(0, len(counts), N_MERGED)
-    share = np.add.reduceat(counts, starts) / delay.n * BINS_PER_DECADE / N_MERGED
+    share = 100.0 * np.add.reduceat(counts, starts) / delay.n
     edges = 1000.0 * np.append(delay.edges[1:-1][starts], delay.edges[-1])
     indices = np.flatnonzero(share)
     start, end = int(indices[0]), int(indices[-1]) + 1

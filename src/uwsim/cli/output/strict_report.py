@@ -44,7 +44,7 @@ def make_strict_clock(
     )
     for device in simulation.world.devices:
         if isinstance(device, InstrumentStream) and device.is_open:
-            clock.watch_output(device.name)
+            clock.watch_output(device.name, partial(getattr, device, "has_reader"))
             device.observer = clock
         elif isinstance(device, ActuatorStream) and device.is_open:
             clock.watch_input(device.name, device.rate)

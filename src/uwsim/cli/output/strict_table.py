@@ -26,10 +26,10 @@ def print_strict_report(report: StrictReport) -> None:
     table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False)
     table.add_column("stream", no_wrap=True, style="bold")
     table.add_column("kind", no_wrap=True)
-    for name in ("number", "on time", "late", "missing", *HEADINGS, "worst [ms]"):
+    for name in ("number", "on time", "late", "missing", "no reader", *HEADINGS, "worst [ms]"):
         table.add_column(Text(name), justify="right")
     for stream in report.streams:
-        counts = (stream.n, stream.n_on_time, stream.n_late, stream.n_missing)
+        counts = (stream.n, stream.n_on_time, stream.n_late, stream.n_missing, stream.n_unread)
         table.add_row(stream.name, stream.kind, *map(str, counts), *_format_delays(stream.lateness))
     console.print(table)
     delays = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False)
@@ -62,6 +62,7 @@ def strict_document(report: StrictReport) -> dict[str, Any]:
                 "on_time": stream.n_on_time,
                 "late": stream.n_late,
                 "missing": stream.n_missing,
+                "no_reader": stream.n_unread,
                 "lateness": _delays_document(stream.lateness),
             }
             for stream in report.streams

@@ -202,6 +202,12 @@ class InstrumentStream(Device):
         return self._connection is not None
 
     @property
+    def has_reader(self) -> bool:
+        """True unless it is known that nobody has read; only a pseudo-terminal shows this."""
+        connection = self._connection
+        return connection.has_reader if isinstance(connection, TerminalStream) else True
+
+    @property
     def description(self) -> str:
         """The formats and the other side, for the user."""
         path = self._connection.path if isinstance(self._connection, TerminalStream) else ""

@@ -44,6 +44,12 @@ class Delays:
             index = 1 + int(BINS_PER_DECADE * math.log10(delay / MIN_DELAY))
         self.counts[min(index, N_BINS - 1)] += 1
 
+    def merge(self, delays: Delays) -> None:
+        """Add all delays of another histogram."""
+        self.counts += delays.counts
+        self.n_early += delays.n_early
+        self.max_delay = max(self.max_delay, delays.max_delay)
+
     def percentile(self, percent: float) -> float:
         """Return the delay that a percentage of all delays does not exceed [s]; NaN without any.
 

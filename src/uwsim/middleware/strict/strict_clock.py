@@ -8,7 +8,8 @@ real time :math:`w(t) = w_0 + (t - t_0) / f`, with the real-time factor f.
   it is due. Its age is counted from the time of its measurement.
 - An *input* with the period T is late by the real time since the last input of its stream, minus T.
   Each further whole period without an input is a missing one. An output is missing if it cannot be
-  sent, because nobody reads.
+  sent, because its reader has gone or does not read. An output that is lost before the first reader
+  comes has no reader, which is no error; it counts as nothing else.
 
 What is late by more than the deadline is counted. The clock only reads the simulation: late data
 is used, and no state depends on real time. The resolution of inputs is one step.
@@ -44,8 +45,12 @@ class StreamReport:
     """The number of late ones."""
     n_missing: int = 0
     """The number of inputs that did not come, or of outputs that could not be sent."""
+    n_unread: int = 0
+    """The number of outputs that were lost because there was no reader yet; no errors."""
     lateness: Delays = field(default_factory=Delays)
     """The times by which they were late [s]."""
+    ages: Delays = field(default_factory=Delays)
+    """The real times from the measurement of outputs to their sending [s]."""
     last_arrival: float = math.nan
     """The real time of the last input [s]; NaN before the first."""
 
@@ -111,16 +116,23 @@ class StrictClock:
         self._deadline, self._now = deadline, now
         self._steps = StreamReport("steps", "step")
         self._streams: dict[str, StreamReport] = {}
-        self._step_time, self._output_age, self._input_to_effect = Delays(), Delays(), Delays()
+        self._has_reader: dict[str, Callable[[], bool]] = {}
+        self._step_time, self._input_to_effect = Delays(), Delays()
         self._step_start = self._clock_start = math.nan
         self._end: float | None = None
         self._pace = Pace(
             clock, real_time_factor, max_lag=max_lag, now=now, sleep=sleep, on_lag=self._note_lag
         )
 
-    def watch_output(self, name: str) -> None:
-        """Report a stream of outputs, also if it sends nothing."""
+    def watch_output(self, name: str, has_reader: Callable[[], bool] = lambda: True) -> None:
+        """Report a stream of outputs, also if it sends nothing.
+
+        Args:
+            name: the name of the stream.
+            has_reader: a function that returns False if nobody has read what was sent.
+        """
         self._streams.setdefault(name, StreamReport(name, "output"))
+        self._has_reader[name] = has_reader
 
     def watch_input(self, name: str, rate: float) -> None:
         """Report a stream of inputs that is expected at a rate [Hz]."""
@@ -156,13 +168,17 @@ class StrictClock:
         if not self._pace.is_started:
             return
         now = self._now()
-        self._streams[name].count(now - self._pace.due_at(due_time), self._deadline)
-        self._output_age.add(now - self._pace.due_at(time))
+        stream = self._streams[name]
+        stream.count(now - self._pace.due_at(due_time), self._deadline)
+        stream.ages.add(now - self._pace.due_at(time))
 
     def note_unsent(self, name: str) -> None:
-        """Count an output that could not be sent as missing."""
-        if self._pace.is_started:
-            self._streams[name].n_missing += 1
+        """Count an output that could not be sent: missing, or unread before the first reader."""
+        stream = self._streams[name]
+        if self._pace.is_started and stream.n:
+            stream.n_missing += 1
+        elif self._pace.is_started:
+            stream.n_unread += 1
 
     def note_command(self, name: str, stamp: float | None) -> None:
         """Count an input.
@@ -194,18 +210,24 @@ class StrictClock:
         """Return what was late until now or the stop, and the inputs that have not come."""
         now = self._now() if self._end is None else self._end
         streams = [self._count_waiting(stream, now) for stream in self._streams.values()]
+        output_age = Delays()
+        for stream in streams:
+            output_age.merge(stream.ages)
         return StrictReport(
             deadline=self._deadline,
             duration=now - self._clock_start if self._pace.is_started else 0.0,
             lost_time=self._pace.lost_time,
             streams=(self._steps, *streams),
             step_time=self._step_time,
-            output_age=self._output_age,
+            output_age=output_age,
             input_to_effect=self._input_to_effect,
         )
 
     def _count_waiting(self, stream: StreamReport, now: float) -> StreamReport:
-        """Return a copy of a stream in which the inputs that have not come are missing."""
+        """Return a copy of a stream with missing inputs, or outputs that nobody has read."""
+        if stream.kind == "output" and not self._has_reader[stream.name]():
+            n_unread = stream.n + stream.n_missing + stream.n_unread
+            return StreamReport(stream.name, "output", n_unread=n_unread)
         if stream.rate is None or not self._pace.is_started:
             return stream
         has_begun = not math.isnan(stream.last_arrival)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import os
 import select
+import sys
 from typing import Any
 
 from ...errors import MissingExtra, UwsimError
@@ -83,6 +84,7 @@ class PseudoTerminal:
         os.set_blocking(self._own_end, False)
         self.path = os.ttyname(self._other_end)
         """The path of the terminal, which a program opens as a serial line."""
+        self._n_sent = 0
         try:
             if link and os.path.islink(link):
                 os.unlink(link)
@@ -98,6 +100,18 @@ class PseudoTerminal:
         """True if the line is open; it does not show whether a device is at its other end."""
         return True
 
+    @property
+    def has_reader(self) -> bool:
+        """True if a program has read sent bytes, or the system does not show it."""
+        try:
+            import fcntl
+            import termios
+
+            waiting_bytes = fcntl.ioctl(self._other_end, termios.FIONREAD, b"\0" * 4)
+        except (ImportError, AttributeError, OSError):
+            return True
+        return int.from_bytes(waiting_bytes, sys.byteorder) < self._n_sent
+
     def receive(self, timeout: float = 0.0) -> bytes:
         """Return bytes that have arrived; wait for the first one for ``timeout`` [s] at most."""
         try:
@@ -110,9 +124,11 @@ class PseudoTerminal:
     def send(self, data: bytes) -> bool:
         """Send bytes; return False if no program reads them and the terminal's buffer is full."""
         try:
-            return os.write(self._own_end, data) == len(data)
+            n_bytes = os.write(self._own_end, data)
         except OSError:
             return False
+        self._n_sent += n_bytes
+        return n_bytes == len(data)
 
     def close(self) -> None:
         """Close both ends, and remove the link."""

@@ -63,17 +63,21 @@ class UdpStream:
         return data
 
     def send(self, data: bytes) -> bool:
-        """Send a datagram; return False if no peer is known, or the system does not send it."""
+        """Send a datagram; return False if no peer is known, or its port is known to be closed."""
         if self._peer is None:
             return False
         try:
             if self._is_bound:
                 self._socket.sendto(data, self._peer)
-            else:
+                return True
+            try:
+                self._socket.send(data)
+            except ConnectionError:  # of an earlier datagram
                 self._socket.send(data)
         except OSError:
             return False
-        return True
+        # on this computer, the answer of a port that nobody has opened is here at once
+        return not self._socket.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR)
 
     def close(self) -> None:
         """Close the port."""
