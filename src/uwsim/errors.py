@@ -60,7 +60,7 @@ class UwsimError(Exception):
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnostic:
-    """An error or a warning about a file."""
+    """An error, a warning or a note about a file."""
 
     file: str
     """The file as the user named it."""
@@ -68,12 +68,12 @@ class Diagnostic:
     """The line number from 1; None for the whole file."""
     message: str
     """The text: what was found, what was expected, and the nearest valid value."""
-    severity: Literal["error", "warning"] = "error"
-    """The severity; a file with warnings alone is valid."""
+    severity: Literal["error", "warning", "note"] = "error"
+    """The severity; a file with warnings and notes alone is valid. A note informs."""
 
     def __str__(self) -> str:
         place = self.file if self.line is None else f"{self.file}:{self.line}"
-        kind = "warning: " if self.severity == "warning" else ""
+        kind = "" if self.severity == "error" else f"{self.severity}: "
         return f"{place}: {kind}{self.message}"
 
 

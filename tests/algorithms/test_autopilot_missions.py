@@ -62,6 +62,7 @@ class Flight:
         parameters: dict[str, float | str] | None = None,
     ) -> None:
         self.autopilot = FakeAutopilot(listener=port)
+        self.autopilot.has_estimate = True
         self.simulation = Simulation(model, is_blind=True, udp_address="127.0.0.1")
         self.autopilot.accept()
         self.start_times: list[float] = []
@@ -95,6 +96,16 @@ def test_a_station_is_held_armed_and_guided(port: socket.socket, model: SceneMod
     sticks = autopilot.find_messages("MANUAL_CONTROL")
     assert {(m.x, m.y, m.z, m.r) for m in sticks} == {(0, 0, 500, 0)}
     assert 5.0 < flight.start_times[0] < 11.0
+    flight.close()
+
+
+def test_nothing_is_commanded_before_the_estimate(port: socket.socket, model: SceneModel) -> None:
+    flight = Flight(port, model, AutopilotStation(), {"estimate_time": 6.0})
+    flight.autopilot.has_estimate = False
+    flight.simulation.advance(5.0)
+    assert not [m for m in flight.autopilot.find_messages("COMMAND_LONG") if m.command == 176]
+    flight.simulation.advance(4.0)  # without an estimate, the commands are tried
+    assert [m for m in flight.autopilot.find_messages("COMMAND_LONG") if m.command == 176]
     flight.close()
 
 

@@ -98,7 +98,9 @@ def test_two_vehicles_need_two_instances() -> None:
     scene = read_scene(bundled_files("scenes")["bluerov2-scene"])
     (vehicle,) = scene.vehicles
     scene = replace(scene, vehicles=(vehicle, replace(vehicle, name="second")))
-    with pytest.raises(BadSetting, match="2 elements <u:ardupilot> have the UDP port 9002"):
+    with pytest.raises(
+        BadSetting, match=r"UDP port 9002 is that of <u:ardupilot> of .* an <instance> each"
+    ):
         connect_ardupilot(scene)
 
 

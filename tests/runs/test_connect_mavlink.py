@@ -29,8 +29,15 @@ def scene_without_mavlink(instance: int) -> SceneSpec:
 def test_a_vehicle_with_ardupilot_gets_one_at_the_second_port(instance: int, port: int) -> None:
     (vehicle,) = connect_mavlink(scene_without_mavlink(instance)).vehicles
     (link,) = vehicle.parts_of(MavlinkSpec)
-    assert (link.name, link.address) == ("bluerov2/autopilot", f"tcp:127.0.0.1:{port}")
+    assert link.name == "bluerov2/autopilot"
+    assert link.complete(vehicle.parts).address == f"tcp:127.0.0.1:{port}"
     assert [link.dvl, link.odometry, link.range] == ["", "", ""]
+
+
+def test_an_address_of_the_file_is_kept() -> None:
+    link = MavlinkSpec(address="udpin:127.0.0.1:14600")
+    assert link.complete([ArduPilotSpec(instance=2)]) == link
+    assert MavlinkSpec().complete([]).address == "tcp:127.0.0.1:5762"
 
 
 def test_that_of_the_scene_remains() -> None:

@@ -33,6 +33,7 @@ class FakeAutopilot:
         self._link.robust_parsing = True
         self._heartbeat_time = 0.0
         self.vehicle_type, self.can_arm = vehicle_type, True
+        self.has_estimate = False
         self.is_armed, self.mode = False, 19
         self.messages: list[Any] = []
 
@@ -64,6 +65,8 @@ class FakeAutopilot:
         if now >= self._heartbeat_time:
             self._heartbeat_time = now + 1.0
             self.send_heartbeat()
+            if self.has_estimate:
+                self.send(dialect.MAVLink_local_position_ned_message(0, 0, 0, 0, 0, 0, 0))
 
     def _answer(self, message: Any) -> None:
         if message.get_type() != "COMMAND_LONG":

@@ -6,6 +6,7 @@ topics of a ``<u:mavlink>`` (`uwsim.devices.mavlink`). All of it follows simulat
 
 from __future__ import annotations
 
+import abc
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -48,13 +49,18 @@ MISSION_PARAMETERS: Mapping[str, float | str] = {
     "mode": "GUIDED",
     "settling_time": 5.0,
     "start": "startBench",
+    "estimate_time": 60.0,
 }
 """The parameters of all missions: the name of the ``<u:mavlink>``, the mode in which it is armed,
-the mode of the mission, the time from then to the call of the services of ``start`` [s]."""
+the mode of the mission, the time from then to the call of the services of ``start`` [s], and the
+longest time for which the mission waits for the autopilot's estimate of its position [s]."""
 
 
-class AutopilotMission:
+class AutopilotMission(abc.ABC):
     """The base of missions: modes, arming, setpoints and the start of the benchmark.
+
+    Nothing is commanded before the autopilot estimates its position, because it refuses modes and
+    arming until then; without an estimate, they are tried after ``estimate_time``.
 
     The pilot's sticks are sent at rest, because ArduSub's failsafe disarms a vehicle without a
     pilot. Modes and arming are commanded again every second until the autopilot reports them; if it
@@ -70,6 +76,7 @@ class AutopilotMission:
         self.parameters = merge_parameters(self.PARAMETERS, node.parameters)
         name = str(self.parameters["autopilot"])
         self._mode, self._is_armed = "", False
+        self._has_estimate = False
         self._command_time = -math.inf  # of the last mode or arming [s]
         self._begin_time = math.inf  # of the mission [s]
         self._publish_mode = node.publisher(f"{name}/mode", String)
@@ -79,8 +86,10 @@ class AutopilotMission:
         self._publish_velocity = node.publisher(f"{name}/setpoint_velocity", TwistStamped)
         node.subscribe(f"{name}/flight_mode", String, self._on_mode)
         node.subscribe(f"{name}/is_armed", Bool, self._on_armed)
+        node.subscribe(f"{name}/estimate", PoseStamped, self._on_estimate)
         node.create_timer(PERIOD, self._on_timer)
 
+    @abc.abstractmethod
     def setpoint(self, time: float) -> tuple[Array, Array, float]:
         """Return the setpoint at a time after the start of the benchmark [s].
 
@@ -91,7 +100,6 @@ class AutopilotMission:
             The position in L (3,) [m], the velocity in the axes of L (3,) [m/s], and the heading
             about the z axis of L [rad].
         """
-        raise NotImplementedError
 
     def _on_mode(self, message: String) -> None:
         self._mode = message.data
@@ -99,10 +107,14 @@ class AutopilotMission:
     def _on_armed(self, message: Bool) -> None:
         self._is_armed = bool(message.data)
 
+    def _on_estimate(self, message: PoseStamped) -> None:
+        self._has_estimate = True
+
     def _on_timer(self) -> None:
         now = self._node.now
         if self._begin_time == math.inf:
-            if self._mode and now - self._command_time >= RETRY_PERIOD:
+            is_ready = self._has_estimate or now > float(self.parameters["estimate_time"])
+            if self._mode and is_ready and now - self._command_time >= RETRY_PERIOD:
                 self._command_time = now
                 self._prepare(now)
             if self._begin_time == math.inf:

@@ -70,6 +70,10 @@ class Subject:
         """Make a warning, with the arguments of `error`; the file remains valid."""
         return replace(self.error(source, message, element), severity="warning")
 
+    def note(self, source: object, message: str, element: str = "") -> Diagnostic:
+        """Make a note, with the arguments of `error`: it informs, and nothing has to be changed."""
+        return replace(self.error(source, message, element), severity="note")
+
 
 class CheckedRobot(Subject):
     """A robot file."""

@@ -116,10 +116,10 @@ def check(
 
 
 def format_lines(file_diagnostics: Mapping[str, Sequence[Diagnostic]]) -> str:
-    """Return one line for each error and warning, and a count for each file."""
+    """Return one line for each error, warning and note, and a count; the notes are last."""
     lines: list[str] = []
     for file, diagnostics in file_diagnostics.items():
-        lines += map(str, diagnostics)
+        lines += map(str, sorted(diagnostics, key=lambda item: item.severity == "note"))
         n_errors = sum(diagnostic.severity == "error" for diagnostic in diagnostics)
         lines.append(f"{file}: {_format_count(n_errors)}")
     return clean_text("\n".join(lines))

@@ -15,13 +15,15 @@ from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import print_warnings, report, warn
 from ..base.tracked_parameters import describe_unread_parameters
 from ..devices.ardupilot import ArduPilotLink
+from ..devices.mavlink import MavlinkDevice
 from ..devices.px4 import Px4
 from ..errors import BadSetting, ErrorCollector, RunFailed
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.ardupilot_scene import connect_ardupilot, connect_mavlink, exchange_timestep
+from ..runs.planning.autopilot_scene import disconnect_autopilots
 from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
-from ..runs.planning.px4_scene import connect_px4, disconnect_autopilots
+from ..runs.planning.px4_scene import connect_px4
 from ..runs.program import load_program
 from ..runs.substituted_files import warn_of_substituted_files
 from ..world import TIMESTEP
@@ -378,7 +380,9 @@ def report_run(
         if strict_report is not None:
             print_strict_report(strict_report)
     for device in simulation.world.devices:
-        if isinstance(device, ArduPilotLink | Px4):
+        if isinstance(device, ArduPilotLink | Px4 | MavlinkDevice) and (
+            not isinstance(device, MavlinkDevice) or device.is_open
+        ):
             report(device.describe())
 
 

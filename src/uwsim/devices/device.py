@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import abc
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
@@ -80,6 +81,10 @@ class DeviceSpec(Spec, abc.ABC):
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topics of the device, besides those of ``<rosInterface>`` elements."""
         return ()
+
+    def complete(self, parts: Sequence[object]) -> DeviceSpec:
+        """Return the spec with the values that follow from other parts of its vehicle."""
+        return self
 
     @abc.abstractmethod
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Device:

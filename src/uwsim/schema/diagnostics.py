@@ -27,7 +27,7 @@ class Diagnostics:
         """True if text after a number is a warning: the original uses ``atof`` there."""
         self._reason = ""
         self._entries: list[Diagnostic] = []
-        self._n_unlisted = {"error": 0, "warning": 0}
+        self._n_unlisted = {"error": 0, "warning": 0, "note": 0}
 
     def error(self, location: object, message: str) -> None:
         """Add an error at an element, a spec or a line number; see `errors_as_warnings`."""
@@ -109,7 +109,7 @@ def diagnostic_at(
     element: str = "",
     *,
     file: str | None = None,
-    severity: Literal["error", "warning"] = "error",
+    severity: Literal["error", "warning", "note"] = "error",
 ) -> Diagnostic:
     """Make an error or a warning at the line of the first ``element`` in a spec, else of the spec.
 
@@ -126,5 +126,5 @@ def diagnostic_at(
 
 
 def _diagnostic(file: str, line: int | None, message: str, severity: str) -> Diagnostic:
-    kind = cast(Literal["error", "warning"], severity)
+    kind = cast(Literal["error", "warning", "note"], severity)
     return Diagnostic(file=file, line=line, message=message, severity=kind)

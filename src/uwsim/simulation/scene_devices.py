@@ -44,7 +44,7 @@ def bind_devices(
         for element, part in spec.all_parts():
             if not isinstance(part, DeviceSpec):
                 continue
-            device = _bind(element, part, world, vehicle)
+            device = _bind(element, part.complete(spec.parts), world, vehicle)
             if device is None:
                 continue
             devices.append(device)

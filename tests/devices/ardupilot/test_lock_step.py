@@ -127,6 +127,57 @@ def test_a_new_start_of_ardupilot_continues_or_ends_the_run() -> None:
         simulation.advance(0.5)
 
 
+def test_a_new_start_sets_the_vehicle_back_and_time_goes_on(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    port = free_port()
+    with (
+        opened(port, onRestart="reset") as simulation,
+        Stub(port, descend, restart_at=300, timeout=0.3) as stub,
+    ):
+        simulation.advance(1.0)
+    depths = [state["position"][2] for state in stub.states]
+    times = times_of(stub)
+    assert depths[299] > 1.51
+    assert depths[302] == pytest.approx(1.5, abs=1e-4)
+    assert times == sorted(times)
+    assert "was started again; the vehicle is back at its start." in capsys.readouterr().err
+
+
+def send_packet(sender: socket.socket, port: int, count: int) -> None:
+    packet = struct.pack("<HHI16H", 18458, 400, count, *[1500] * 16)
+    sender.sendto(packet, ("127.0.0.1", port))
+
+
+def test_a_new_ardupilot_replaces_an_old_one_that_fell_silent(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    port = free_port()
+    old_program = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    with opened(port, timeout=20.0) as simulation, old_program:
+        send_packet(old_program, port, 24000)
+        simulation.advance(TIMESTEP)
+        with Stub(port, descend, timeout=0.3):
+            start = time.monotonic()
+            simulation.advance(0.1)
+            assert time.monotonic() - start < 10.0
+        exchange = link_of(simulation).state.exchange
+        assert (exchange.n_restarts, exchange.first_count) == (1, 0)
+        assert exchange.n_lost == 0
+    assert "16 channels; it was running before, at frame 24000" in capsys.readouterr().err
+
+
+def test_the_silence_of_an_old_ardupilot_names_the_remedy() -> None:
+    port = free_port()
+    with (
+        opened(port, timeout=0.5) as simulation,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as old_program,
+    ):
+        send_packet(old_program, port, 24000)
+        with pytest.raises(ClientLost, match=r"an old ArduPilot holds its ports.* kill -9"):
+            simulation.advance(0.1)
+
+
 def test_a_silent_ardupilot_ends_the_run() -> None:
     port = free_port()
     with opened(port, timeout=0.5) as simulation:

@@ -18,6 +18,7 @@ import uwsim
 from tests.support.fake_autopilot import FakeAutopilot
 from uwsim.assets.bundled import bundled_files
 from uwsim.devices.mavlink.mavlink import MavlinkDevice
+from uwsim.devices.mavlink.start_watch import StartWatch
 from uwsim.errors import UwsimError
 from uwsim.messages import (
     Bool,
@@ -171,7 +172,7 @@ def test_mode_arming_and_texts_are_commanded_and_reported(
     assert [text.data for text in texts.take()] == ["critical: Arm: EKF attitude is bad"]
     output = capsys.readouterr().err
     assert "autopilot of bluerov2: critical: Arm: EKF attitude is bad" in output
-    assert "autopilot of bluerov2: command 400: failed" in output
+    assert "autopilot of bluerov2: command 400 (arming): failed" in output
     assert "autopilot of bluerov2: POSHOLD, armed" in output
 
 
@@ -325,3 +326,25 @@ def test_a_flood_of_texts_does_not_flood_the_terminal(
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) <= 200
     assert "later texts are not shown" in lines[-1]
+
+
+def test_an_autopilot_that_is_absent_is_reported_once(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    now = 100.0
+    monkeypatch.setattr("uwsim.devices.mavlink.start_watch.time.monotonic", lambda: now)
+    watch = StartWatch("tcp:127.0.0.1:5812")
+    watch.check()
+    assert capsys.readouterr().err == ""
+    now = 106.0
+    watch.check()
+    watch.check()
+    error = capsys.readouterr().err
+    assert error.count("no MAVLink at tcp:127.0.0.1:5812: is it SERIAL1 of this ArduPilot") == 1
+
+
+def test_the_numbers_of_a_connection_are_described(pair: Pair) -> None:
+    pair.simulation.advance(1.0)
+    text = pair.device.describe()
+    assert text.startswith("MAVLink of ")
+    assert " messages received, " in text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...base.record import Record
@@ -25,6 +26,9 @@ N_SERVOS = 16
 """The number of servo outputs in a SERVO_OUTPUT_RAW."""
 ACK_RESULTS = ("accepted", "temporarily rejected", "denied", "unsupported", "failed", "in progress")
 """The results of commands by number, MAV_RESULT."""
+
+COMMAND_NAMES: Mapping[int, str] = {176: "mode", 400: "arming", 511: "rate of a message"}
+"""The commands that uwsim sends, by number, MAV_CMD."""
 
 
 @dataclass(slots=True)
@@ -95,6 +99,13 @@ def read_text(status: AutopilotStatus, message: Message) -> str | None:
 def servo_outputs(message: Message) -> tuple[int, ...]:
     """Return the pulse widths of a SERVO_OUTPUT_RAW [us], (16,); 0 if a channel is not used."""
     return tuple(message.integer(f"servo{k}_raw") for k in range(1, N_SERVOS + 1))
+
+
+def describe_command(message: Message) -> str:
+    """Return the command of a COMMAND_ACK in words."""
+    number = message.integer("command")
+    name = COMMAND_NAMES.get(number)
+    return f"command {number}" + ("" if name is None else f" ({name})")
 
 
 def describe_result(message: Message) -> str:

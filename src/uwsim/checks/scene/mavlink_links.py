@@ -17,7 +17,7 @@ def check_links(scene: CheckedScene) -> Iterator[Diagnostic]:
     for vehicle in scene.spec.vehicles:
         for spec in vehicle.parts_of(MavlinkSpec):
             try:
-                parse_address(spec.address)
+                parse_address(spec.complete(vehicle.parts).address)
             except UwsimError as error:
                 yield scene.error(spec, f"<u:mavlink>: <address>: {error}", "address")
             other = owners.setdefault(spec.name.strip("/"), spec)

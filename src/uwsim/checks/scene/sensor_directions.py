@@ -35,7 +35,7 @@ def directions(scene: CheckedScene) -> Iterator[Diagnostic]:
             is_reported = not isinstance(spec, ObjectPickerSpec | StructuredLightProjectorSpec)
             if is_reported and robot.link(spec.relative_to) is not None:
                 message = f"{_quoted_name(spec)} {describe_direction(spec, frames)}"
-                yield scene.warning(spec, message)
+                yield scene.note(spec, message)
         if not uses_extensions(scene.placed_scene):
             yield from _upward_sensors(scene, frames)
 

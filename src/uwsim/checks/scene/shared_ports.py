@@ -13,6 +13,7 @@ from ...devices.px4 import Px4Spec
 from ...devices.streams.actuator_stream import ActuatorStreamSpec
 from ...devices.streams.instrument_stream import InstrumentStreamSpec
 from ...errors import Diagnostic, UwsimError
+from ...scene.spec import SceneSpec
 from ...schema import format_tag, line_of
 from ...world.addresses import parse_address
 from ..subjects import CheckedScene
@@ -54,24 +55,30 @@ class LocalPort:
 
 def shared_ports(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report ports that two elements of a scene open, with the lines of both."""
+    for port, other in find_shared_ports(scene.spec):
+        line = "" if other.line is None else f" (line {other.line})"
+        message = (
+            f"{port.owner}: {port.place} is that of {other.owner}{line}, too; expected a "
+            "port of its own"
+        )
+        yield scene.error(port.line, message)
+
+
+def find_shared_ports(scene: SceneSpec) -> Iterator[tuple[LocalPort, LocalPort]]:
+    """Yield each port that an earlier element of the scene opens as well, with that element's."""
     ports: dict[tuple[str, int], list[LocalPort]] = {}
     for port in sorted(_find_ports(scene), key=lambda entry: entry.line or 0):
         earlier_ports = ports.setdefault((port.protocol, port.port), [])
         other = next((entry for entry in earlier_ports if entry.collides_with(port)), None)
         if other is not None:
-            line = "" if other.line is None else f" (line {other.line})"
-            message = (
-                f"{port.owner}: {port.place} is that of {other.owner}{line}, too; expected a "
-                "port of its own"
-            )
-            yield scene.error(port.line, message)
+            yield port, other
         else:
             earlier_ports.append(port)
 
 
-def _find_ports(scene: CheckedScene) -> Iterator[LocalPort]:
+def _find_ports(scene: SceneSpec) -> Iterator[LocalPort]:
     """Yield the ports and terminals of a scene, in the order of its parts."""
-    for vehicle in scene.spec.vehicles:
+    for vehicle in scene.vehicles:
         for element, part in vehicle.all_parts():
             owner = f"{format_tag(element)} of {vehicle.name!r}"
             line = line_of(vehicle, "fdm") if isinstance(part, FdmSpec) else line_of(part)

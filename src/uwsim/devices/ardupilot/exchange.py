@@ -10,7 +10,9 @@ next          the next frame
 the same      the answer was lost: it is sent again, and no step is taken. If it was only late, that
               is, the packets wait together, one answer suffices
 skipped       packets were lost; they are counted
-lower         ArduPilot was started again; the simulation continues, or ends as invalid
+lower         ArduPilot was started again; the simulation continues, with or without the vehicle
+              back at its start, or ends as invalid
+first, not 0  ArduPilot was running before this simulation, perhaps left over from an earlier run
 ============  =====================================================================================
 
 ArduPilot that has read two answers to one frame is one frame ahead. Its next packet then waits
@@ -22,6 +24,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from typing import Literal
 
 from ...autopilots.ardupilot import ServoPacket, read_servo_packet
 from ...base.record import Record
@@ -29,10 +32,19 @@ from ...base.terminal import report
 from ...errors import ClientLost
 from ...world import DatagramPort
 
+OnRestart = Literal["continue", "reset", "end"]
+"""The effect of a new start of ArduPilot during a run."""
 WAIT_SLICE = 0.2
 """The wall time of one wait, after which limits are checked [s]."""
 RESTART_SILENCE = 2.0
-"""The wall time of silence after which a packet of another sender counts as a new start [s]."""
+"""The wall time of silence after which a packet of another sender counts as a new start [s]. If the
+silent one was running before the simulation, it is `WAIT_SLICE`."""
+RESTART_EFFECTS = {
+    "continue": "the simulation continues",
+    "reset": "the vehicle is back at its start",
+    "end": "the run ends",
+}
+"""The effect of a new start of ArduPilot in words."""
 MAX_DRAINED = 64
 """The greatest number of waiting packets that one answer covers."""
 CHECK_PERIOD = 64
@@ -49,6 +61,8 @@ class ExchangeState(Record):
 
     frame_count: int | None = None
     """The number of the last frame; None before the first packet."""
+    first_count: int = 0
+    """The number of the sender's first frame; not 0 if it was running before."""
     pwm: tuple[int, ...] = ()
     """The pulse widths of the last packet [us]."""
     answer: bytes = b""
@@ -83,15 +97,15 @@ class Exchange:
     Args:
         port: the port at which ArduPilot sends.
         timeout: the longest silence [s of wall time].
-        ends_on_restart: True if the run is invalid when ArduPilot is started again.
+        on_restart: the effect of a new start of ArduPilot; with ``end`` the run is invalid.
         hint: the text about how to start ArduPilot.
     """
 
     def __init__(
-        self, port: DatagramPort, *, timeout: float, ends_on_restart: bool, hint: str
+        self, port: DatagramPort, *, timeout: float, on_restart: OnRestart, hint: str
     ) -> None:
         self._port, self._timeout, self._hint = port, timeout, hint
-        self._ends_on_restart = ends_on_restart
+        self._on_restart = on_restart
         self.state = ExchangeState()
         """The state of the exchange."""
 
@@ -122,7 +136,7 @@ class Exchange:
                 continue
             if not is_reported:
                 is_reported = self._report_wait(silence)
-            if silence >= RESTART_SILENCE:
+            if silence >= (WAIT_SLICE if self.state.first_count else RESTART_SILENCE):
                 datagram = self._receive_from_new_sender()
                 if datagram is not None and self._accept(*datagram):
                     return
@@ -153,14 +167,13 @@ class Exchange:
         if packet is None:
             state.n_invalid += 1
             return False
-        if self._port.peer != sender:
+        is_new_sender = self._port.peer != sender
+        if is_new_sender:
             self._port.set_peer(sender)
+            state.first_count = packet.frame_count
             if state.frame_count is None:
-                report(
-                    f"ArduPilot at {sender[0]}:{sender[1]} is connected to {self.place}: "
-                    f"{len(packet.pwm)} channels."
-                )
-        if packet.frame_count == state.frame_count:
+                self._report_connection(packet, sender)
+        if packet.frame_count == state.frame_count and not is_new_sender:
             state.n_duplicates += 1
             self._port.send(state.answer)
             return False
@@ -177,7 +190,7 @@ class Exchange:
         state = self.state
         if state.frame_count is not None:
             n_frames = packet.frames_since(state.frame_count)
-            if n_frames < 0:
+            if n_frames <= 0:
                 self._count_restart()
             else:
                 state.n_lost += n_frames - 1
@@ -185,12 +198,20 @@ class Exchange:
 
     def _count_restart(self) -> None:
         self.state.n_restarts += 1
-        if self._ends_on_restart:
+        if self._on_restart == "end":
             raise ClientLost(
                 f"ArduPilot on {self.place} was started again: the run is invalid. "
-                "<onRestart>continue</onRestart> permits it."
+                "<onRestart>continue</onRestart> or <onRestart>reset</onRestart> permits it."
             )
-        report(f"ArduPilot on {self.place} was started again; the simulation continues.")
+        effect = RESTART_EFFECTS[self._on_restart]
+        report(f"ArduPilot on {self.place} was started again; {effect}.")
+
+    def _report_connection(self, packet: ServoPacket, sender: tuple[str, int]) -> None:
+        was_running = f"; it was running before, at frame {packet.frame_count}"
+        report(
+            f"ArduPilot at {sender[0]}:{sender[1]} is connected to {self.place}: "
+            f"{len(packet.pwm)} channels{was_running if packet.frame_count else ''}."
+        )
 
     def _receive_from_new_sender(self) -> tuple[bytes, tuple[str, int]] | None:
         """Return a packet of another sender than the silent one; None if there is none."""
@@ -219,9 +240,19 @@ class Exchange:
             return False
         report(
             f"ArduPilot on {self.place} is silent; the run ends after {self._timeout:g} s of wall "
-            "time."
+            f"time.{self._old_program_hint}"
         )
         return True
+
+    @property
+    def _old_program_hint(self) -> str:
+        """The advice about an ArduPilot of an earlier run; empty if this one has begun at 0."""
+        if not self.state.first_count:
+            return ""
+        return (
+            " It was running before: an old ArduPilot holds its ports. End it with kill -9, and "
+            "start ArduPilot again."
+        )
 
     def _describe_silence(self, simulation_time: float) -> str:
         if self.state.frame_count is None:
@@ -231,7 +262,7 @@ class Exchange:
             )
         return (
             f"ArduPilot on {self.place} is silent for {self._timeout:g} s of wall time "
-            f"(<timeout>) at {simulation_time:g} s: the run is invalid."
+            f"(<timeout>) at {simulation_time:g} s: the run is invalid.{self._old_program_hint}"
         )
 
     def describe(self) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ from ...base.geometry import Array
 from ...base.record import Record
 from ...base.sampling import Sampler
 from ...messages import BatteryState, Range
+from ...vehicle import Vehicle
 from ..device import Device
 from .body_state import split_sample
 from .channels import ServoOutputs
@@ -40,6 +42,24 @@ class Geography:
         )
 
 
+class StartPose:
+    """The pose and the joints of a vehicle at its start.
+
+    Args:
+        vehicle: the vehicle, at its start.
+    """
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        self._vehicle = vehicle
+        self._world_from_base, self._joints = vehicle.world_from_base, vehicle.joints
+
+    def restore(self) -> None:
+        """Set the vehicle back to its start, at rest."""
+        self._vehicle.place(self._world_from_base)
+        if len(self._joints):
+            self._vehicle.set_joints(self._joints)
+
+
 @dataclass(slots=True)
 class LinkState(Record):
     """The state of a connection to ArduPilot."""
@@ -50,6 +70,8 @@ class LinkState(Record):
     """The last distance of each rangefinder [m]; None before its first measurement."""
     battery: tuple[float, float] | None = None
     """The voltage [V] and the current [A] of the battery; None before its first message."""
+    n_resets: int = 0
+    """The number of new starts of ArduPilot whose effect was applied."""
 
 
 class ArduPilotLink(Device):
@@ -69,6 +91,7 @@ class ArduPilotLink(Device):
         timestep: the length of a step [s].
         wind: the wind that is sent, NED [m/s]; None: none.
         n_ranges: the number of rangefinders.
+        reset: the function that sets the vehicle back after a new start of ArduPilot; None: none.
     """
 
     def __init__(
@@ -82,10 +105,11 @@ class ArduPilotLink(Device):
         timestep: float,
         wind: tuple[float, float, float] | None,
         n_ranges: int,
+        reset: Callable[[], None] | None = None,
     ) -> None:
         self._outputs, self._sampler, self._exchange = outputs, sampler, exchange
         self._geography, self._n_steps, self._timestep = geography, n_steps, timestep
-        self._wind = wind
+        self._wind, self._reset = wind, reset
         self.state: LinkState = LinkState(exchange.state, [None] * n_ranges)
 
     def _is_due(self, time: float) -> bool:
@@ -106,6 +130,10 @@ class ArduPilotLink(Device):
             return
         last_pwm = self.state.exchange.pwm
         self._exchange.wait_for_packet(time)
+        if self.state.n_resets < self.state.exchange.n_restarts:
+            self.state.n_resets = self.state.exchange.n_restarts
+            if self._reset is not None:
+                self._reset()
         self._outputs.apply(self.state.exchange.pwm, last_pwm)
 
     def animate(self, time: float) -> None:

@@ -30,7 +30,7 @@ from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .body_state import body_sampler, is_base_z_down
 from .channels import ChannelSpec, bind_channels
 from .exchange import Exchange
-from .link import ArduPilotLink, Geography
+from .link import ArduPilotLink, Geography, StartPose
 
 FIRST_PORT, PORTS_PER_INSTANCE = 9002, 10
 """The port of instance 0, and the distance to that of the next instance: ArduPilot's defaults."""
@@ -63,8 +63,9 @@ class ArduPilotSpec(DeviceSpec):
     2026 or later)."""
     timeout: float = element(default=60.0, exclusive_minimum=0.0, maximum=86400.0)
     """The longest silence of ArduPilot, after which the run ends as invalid [s of wall time]."""
-    on_restart: Literal["continue", "end"] = "continue"
-    """The effect of a new start of ArduPilot during a run."""
+    on_restart: Literal["continue", "reset", "end"] = "continue"
+    """The effect of a new start of ArduPilot during a run: the simulation continues; the vehicle is
+    set back to its start, at rest, and time continues; or the run ends as invalid."""
     wind: Triple | None = element(default=None, minimum=-100.0, maximum=100.0)
     """The velocity of the wind that ArduPilot is sent: north, east, down; no force [m/s]."""
     channels: tuple[ChannelSpec, ...] = element("channel", default=())
@@ -116,7 +117,7 @@ class ArduPilotSpec(DeviceSpec):
         exchange = Exchange(
             world.connections.open_port(self.udp_port),
             timeout=self.timeout,
-            ends_on_restart=self.on_restart == "end",
+            on_restart=self.on_restart,
             hint=HINT if self.instance == 0 else f"{HINT} -I{self.instance}",
         )
         link = ArduPilotLink(
@@ -128,6 +129,7 @@ class ArduPilotSpec(DeviceSpec):
             timestep=world.timestep,
             wind=self.wind,
             n_ranges=len(self.rangefinders),
+            reset=StartPose(vehicle).restore if self.on_restart == "reset" else None,
         )
         for i, topic in enumerate(self.rangefinders):
             world.bus.subscribe(topic, Range, partial(link.set_range, i))

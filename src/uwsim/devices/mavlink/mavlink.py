@@ -15,7 +15,8 @@ program outside, so a run with this device is repeatable as far as that program 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from ...autopilots.mavlink.status import (
     ACK_RESULTS,
     AutopilotStatus,
     apply_heartbeat,
+    describe_command,
     describe_result,
     is_autopilot_heartbeat,
     read_text,
@@ -36,11 +38,13 @@ from ...messages import DVL, Bool, Odometry, Point, PoseStamped, Quaternion, Ran
 from ...messages import Pose as PoseMessage
 from ...schema import MAX_DISTANCE, element
 from ...world import DeviceWorld
+from ..ardupilot import ArduPilotSpec
 from ..device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .axes import BodyAxes, HomeFrame
 from .command_topics import CommandState, CommandTopics, command_topics
 from .link import Link, LinkState
 from .navigation import NavigationSensors, NavigationState, PositionNoise
+from .start_watch import StartWatch
 
 GROUND_STATION, ONBOARD_COMPUTER = 6, 18
 """The MAV_TYPE of the two components as which the device sends."""
@@ -60,6 +64,8 @@ MAX_NOTES = 200
 """The greatest number of lines on the terminal; later texts are only published."""
 N_LAST_NOTES = 8
 """The number of lines on the terminal that are not repeated."""
+MAVLINK_PORT, PORTS_PER_INSTANCE = 5762, 10
+"""The TCP port of ArduPilot's second serial port, and the distance to that of the next instance."""
 LOCAL_POSITION_NUMBER, ATTITUDE_NUMBER = 32, 30
 """The numbers of LOCAL_POSITION_NED and ATTITUDE."""
 
@@ -77,10 +83,11 @@ class MavlinkSpec(DeviceSpec):
 
     name: str = "mavlink"
     """The name of the device, which begins its topics; it must be unique in the scene."""
-    address: str = "tcp:127.0.0.1:5762"
+    address: str = ""
     """The address of the autopilot: ``tcp:HOST:PORT`` of a server, ``udpin:`` or ``udpout:``.
     ArduPilot's simulation n (from 0) listens at the TCP ports 5760 + 10 n, which MAVProxy takes if
-    ``sim_vehicle.py`` starts it, and 5762 + 10 n, its second serial port."""
+    ``sim_vehicle.py`` starts it, and 5762 + 10 n, its second serial port. By default it is
+    ``tcp:127.0.0.1:5762`` + 10 n, with n the ``<instance>`` of the vehicle's ``<u:ardupilot>``."""
     dvl: str = ""
     """The topic of a DVL (underwater_sensor_msgs/DVL), sent as VISION_POSITION_DELTA."""
     odometry: str = ""
@@ -116,6 +123,13 @@ class MavlinkSpec(DeviceSpec):
             if topic
         )
 
+    def complete(self, parts: Sequence[object]) -> MavlinkSpec:
+        """Return the spec with an address: by default that of the vehicle's ArduPilot."""
+        if self.address:
+            return self
+        instances = [part.instance for part in parts if isinstance(part, ArduPilotSpec)]
+        return replace(self, address=second_serial_port(*instances[:1]))
+
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MavlinkDevice:
         """Open the connection, if the simulation has any, and subscribe to the topics."""
         connections = world.connections
@@ -126,8 +140,13 @@ class MavlinkSpec(DeviceSpec):
             warn(f"<u:mavlink> of {vehicle.name} does nothing. {error}")
         link = Link()
         if connections is not None and codec is not None:
-            link = Link(connections.open(self.address), codec)
+            link = Link(connections.open(self.address or second_serial_port()), codec)
         return MavlinkDevice(self, world, vehicle, link)
+
+
+def second_serial_port(instance: int = 0) -> str:
+    """Return the address of the second serial port of an ArduPilot instance."""
+    return f"tcp:127.0.0.1:{MAVLINK_PORT + PORTS_PER_INSTANCE * instance}"
 
 
 @dataclass(slots=True)
@@ -171,6 +190,7 @@ class MavlinkDevice(Device):
         self, spec: MavlinkSpec, world: DeviceWorld, vehicle: DeviceVehicle, link: Link
     ) -> None:
         self._spec, self._world, self._link = spec, world, link
+        self._watch = StartWatch(spec.address or second_serial_port())
         self.name = spec.name
         """The name of the device, with which its topics begin."""
         self.vehicle_name = vehicle.name
@@ -273,7 +293,7 @@ class MavlinkDevice(Device):
                 self._publish_text(String(data=text))
                 self._note(text)
         elif message.name == "COMMAND_ACK" and describe_result(message) != ACK_RESULTS[0]:
-            self._note(f"command {message.integer('command')}: {describe_result(message)}")
+            self._note(f"{describe_command(message)}: {describe_result(message)}")
         elif message.name == "ATTITUDE":
             state = self.state
             state.roll, state.pitch, state.yaw = map(message.number, ("roll", "pitch", "yaw"))
@@ -325,9 +345,26 @@ class MavlinkDevice(Device):
         """Report once that the autopilot sends no more heartbeats."""
         state = self.state
         last_time = state.status.heartbeat_time
+        if last_time < 0.0 and time > 0.0:
+            self._watch.check()
         if last_time >= 0.0 and time - last_time > LOST_TIME and not state.is_silent:
             state.is_silent = True
             self._note(f"no heartbeat for {LOST_TIME:g} s")
+
+    def describe(self) -> str:
+        """Return a sentence with the numbers of the connection."""
+        link = self.state.link
+        if self.state.status.heartbeat_time < 0.0:
+            return f"MAVLink of {self.vehicle_name}: {self._watch.describe()}"
+        counts = {
+            "unsent": link.n_unsent,
+            "bytes of no MAVLink": link.reader.n_invalid_bytes,
+        }
+        events = ", ".join(f"{n} {name}" for name, n in counts.items() if n)
+        return (
+            f"MAVLink of {self.vehicle_name}: {link.reader.n_messages} messages received, "
+            f"{link.n_sent} sent" + (f"; {events}" if events else "")
+        )
 
     def _report_invalid_bytes(self) -> None:
         """Report the first invalid bytes, and whenever there are ten times as many."""

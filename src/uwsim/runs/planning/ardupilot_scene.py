@@ -9,13 +9,10 @@ from dataclasses import replace
 from ...devices.ardupilot import ArduPilotSpec
 from ...devices.mavlink import MavlinkSpec
 from ...devices.px4 import Px4Spec
-from ...errors import BadSetting
 from ...scene.spec import SceneSpec
 from ...world import TIMESTEP
-from .px4_scene import add_autopilot, remove_parts
+from .autopilot_scene import add_autopilot, check_ports, remove_parts
 
-MAVLINK_PORT, PORTS_PER_INSTANCE = 5762, 10
-"""The TCP port of ArduPilot's second serial port, and the distance to that of the next instance."""
 ADDRESS = "127.0.0.1"
 """The address of this computer at which ArduPilot is expected by default."""
 
@@ -30,7 +27,7 @@ def connect_ardupilot(scene: SceneSpec, *, ends_on_restart: bool = False) -> Sce
         ends_on_restart: True if a new start of ArduPilot ends the run, as in a benchmark.
 
     Raises:
-        BadSetting: no vehicle has dynamics, or two vehicles have one port.
+        BadSetting: no vehicle has dynamics, or two elements open one port.
     """
     vehicles = [remove_parts(vehicle, Px4Spec) for vehicle in scene.vehicles]
     vehicles = add_autopilot(vehicles, ArduPilotSpec(), option="--ardupilot")
@@ -46,13 +43,7 @@ def connect_ardupilot(scene: SceneSpec, *, ends_on_restart: bool = False) -> Sce
             for vehicle in vehicles
         ]
     connected_scene = replace(scene, vehicles=tuple(vehicles))
-    ports = [spec.udp_port for spec in ardupilot_specs(connected_scene)]
-    for port in ports:
-        if ports.count(port) > 1:
-            raise BadSetting(
-                f"--ardupilot: {ports.count(port)} elements <u:ardupilot> have the UDP port "
-                f"{port}; expected an <instance> each."
-            )
+    check_ports(connected_scene, option="--ardupilot", advice="an <instance> each")
     return connected_scene
 
 
@@ -66,10 +57,8 @@ def connect_mavlink(scene: SceneSpec) -> SceneSpec:
         return scene
     vehicles = []
     for vehicle in scene.vehicles:
-        autopilots = vehicle.parts_of(ArduPilotSpec)
-        if autopilots and not vehicle.parts_of(MavlinkSpec):
-            port = MAVLINK_PORT + PORTS_PER_INSTANCE * autopilots[0].instance
-            link = MavlinkSpec(name=f"{vehicle.name}/autopilot", address=f"tcp:{ADDRESS}:{port}")
+        if vehicle.parts_of(ArduPilotSpec) and not vehicle.parts_of(MavlinkSpec):
+            link = MavlinkSpec(name=f"{vehicle.name}/autopilot")
             vehicle = replace(vehicle, parts=(*vehicle.parts, link))
         vehicles.append(vehicle)
     return replace(scene, vehicles=tuple(vehicles))
