@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -263,7 +264,8 @@ def write_dataflash(path: Path, csv_log: Path) -> Path:
         numbers = (*velocity, 0.0, *position)
         entries.append((time, message("XKF1", time, 0, roll, pitch, yaw % 36000, *numbers)))
     signs = np.array([-1, -1, 1, 1, 1, 1, 1, 1])
-    for time, values in zip(commands.times.tolist(), commands.values, strict=True):
+    step = round(0.1 / float(np.median(np.diff(commands.times))))  # ArduSub logs 10 in a second
+    for time, values in zip(commands.times[::step].tolist(), commands.values[::step], strict=True):
         stamp = round(1e6 * time) + 5_000_000
         pulses = [round(1500 + 400 * value) for value in (signs * values).tolist()]
         entries.append((stamp, message("RCOU", stamp, *pulses)))
@@ -276,14 +278,55 @@ def write_dataflash(path: Path, csv_log: Path) -> Path:
     return path
 
 
-def test_the_motors_of_an_autopilots_log_drive_the_thrusters_of_the_scene(
-    true_log: Path, tmp_path: Path
-) -> None:
+def test_the_motors_of_an_autopilots_log_drive_the_thrusters_of_the_scene(tmp_path: Path) -> None:
     scene = read_scene(scene_file("bluerov2-scene", ()))
-    path = write_dataflash(tmp_path / "dive.bin", true_log)
+    log = write_log(tmp_path / "dive.csv", Rov(), duration=24.0, command_rate=100.0)
+    path = write_dataflash(tmp_path / "dive.bin", log)
     gap = measure(path, scene, n_windows=10, has_attribution=False)
     assert gap.horizons[0].distance.value < 0.02  # angles of 0.01 degrees, pulses of 1 us
     assert gap.horizons[1].distance.value < 0.1
+    [commands] = read_log(path).commands
+    assert commands.interval == pytest.approx(0.1)
+    assert np.diff(commands.times).max() < 0.021
+
+
+def test_a_log_of_outputs_at_10_hz_does_not_measure_the_lag_of_the_thrusters(
+    tmp_path: Path,
+) -> None:
+    scene = read_scene(scene_file("bluerov2-scene", ()))
+    log = write_log(tmp_path / "dive.csv", Rov(), duration=24.0, command_rate=100.0)
+    gap = measure(write_dataflash(tmp_path / "dive.bin", log), scene, horizons=(1.0,))
+    assert gap.attribution is not None
+    assert "thruster_lag" not in [row.coefficient.key for row in gap.attribution.shares]
+    assert any("commands at 10 Hz" in remark for remark in gap.remarks)
+    assert gap.attribution.evident_cause is None
+    assert "no coefficient" in gap.verdict or "follows" in gap.verdict
+
+
+def shift_stamps(path: Path, shift: float) -> None:
+    """Shift the stamps of the commands of a log, as another clock does."""
+    lines = [line.split(",") for line in path.read_text().splitlines()]
+    header, rows = lines[0], []
+    for row in lines[1:]:
+        rows.append([*row[:14], *[""] * 8])
+        if row[14]:
+            rows.append([f"{float(row[0]) + shift:.3f}", *[""] * 13, *row[14:]])
+    rows.sort(key=lambda row: float(row[0]))
+    path.write_text("\n".join(",".join(row) for row in [header, *rows]) + "\n")
+
+
+def test_a_late_clock_of_the_commands_is_named_and_no_coefficient(
+    scene: SceneSpec, tmp_path: Path
+) -> None:
+    path = write_log(tmp_path / "log.csv", Rov(), duration=42.0, noise=NOISE)
+    shift_stamps(path, 0.15)
+    gap = measure(path, scene, horizons=(1.0,))
+    assert gap.attribution is not None
+    cause = gap.attribution.evident_cause
+    assert cause is not None
+    assert cause.coefficient.is_clock
+    assert cause.shift == pytest.approx(-0.15, abs=0.02)
+    assert re.search(r"the clock of the commands is 0\.1\d+ s \(.*\) late", gap.verdict)
 
 
 def test_a_log_below_the_floor_of_the_scene_names_the_window(true_log: Path) -> None:

@@ -14,6 +14,10 @@ pulse width :math:`p` is the command
     u = d \, \frac{p - p_\mathrm{trim}}{p_\mathrm{trim} - p_\mathrm{min}}
 
 Without parameters, outputs 1 to 8 are motors with 1100, 1500 and 1900 us.
+
+The log has samples of outputs that the autopilot changes more often: 400 times a second, of which
+ArduSub logs 10 (``ten_hz_logging_loop`` of ``ArduSub/Sub.cpp``). Between two samples the commands
+are on the line from the one to the other (`samples.interpolate_commands`).
 """
 
 from __future__ import annotations
@@ -31,7 +35,7 @@ from ..errors import BadSetting, choices
 from .assemble import check_content, make_motion
 from .frames import quaternions_from_rpy
 from .mapping import LogMapping
-from .samples import Samples
+from .samples import Samples, interpolate_commands
 from .vehicle_log import CommandSeries, MotionSeries, SensorSeries, VehicleLog
 
 N_OUTPUTS = 32
@@ -230,9 +234,16 @@ def _make_commands(
     is_complete = np.isfinite(values).all(axis=1)
     if not names or not is_complete.any():
         return ()
+    times, values = times[is_complete], values[is_complete]
+    sample_interval = float(np.median(np.diff(times))) if len(times) > 1 else None
+    times, values = interpolate_commands(times, values)
     return (
         CommandSeries(
-            kind="thrusters", names=names, times=times[is_complete], values=values[is_complete]
+            kind="thrusters",
+            names=names,
+            times=times,
+            values=values,
+            sample_interval=sample_interval,
         ),
     )
 

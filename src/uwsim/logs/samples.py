@@ -23,6 +23,10 @@ MIN_GAP = 0.5
 CLOCK_RESET = 1.0
 """The step backwards in time from which a log's clock was reset [s]."""
 MAX_REPORTED_GAPS = 3
+STEP = 0.02
+"""The interval of interpolated commands [s]."""
+MAX_STRETCH = 0.5
+"""The longest interval between samples that commands are interpolated over [s]."""
 
 
 class ClockReset(AssetError):
@@ -125,6 +129,33 @@ def find_gaps(times: Array) -> list[tuple[float, float]]:
     return [
         (float(times[index]), float(times[index + 1])) for index in np.flatnonzero(steps > limit)
     ]
+
+
+def interpolate_commands(times: Array, values: Array) -> tuple[Array, Array]:
+    """Return commands that hold for at most `STEP`, on the lines between samples of outputs.
+
+    A controller changes its outputs between two samples of them. A value that is held until the
+    next sample is late by half of their interval on average; one on the line between them is not.
+    Each interval gets equal parts, with the value of the line at the middle of the part. Intervals
+    longer than `MAX_STRETCH` hold their first value.
+
+    Args:
+        times: the times of the samples, increasing, (n,) [s].
+        values: the samples, (n, k).
+    """
+    if len(times) < 2:
+        return times, values
+    intervals = np.diff(times)
+    counts = np.where(intervals <= MAX_STRETCH, np.ceil(intervals / STEP - 1e-6), 1.0)
+    counts = np.maximum(counts, 1.0).astype(np.int64)
+    first_indices = np.cumsum(counts) - counts
+    rows = np.repeat(np.arange(len(counts)), counts)
+    parts = np.arange(int(counts.sum())) - first_indices[rows]
+    is_line = (intervals <= MAX_STRETCH)[rows]
+    shares = np.where(is_line, (parts + 0.5) / counts[rows], 0.0)
+    part_times = times[rows] + intervals[rows] * parts / counts[rows]
+    part_values = values[rows] + shares[:, None] * (values[rows + 1] - values[rows])
+    return np.append(part_times, times[-1]), np.vstack([part_values, values[-1:]])
 
 
 def _count(mask: npt.NDArray[np.bool_]) -> str:

@@ -63,9 +63,20 @@ class CommandSeries:
     """The times at which the commands take effect, (n,) [s]."""
     values: Array
     """The commands, (n, columns)."""
+    sample_interval: float | None = None
+    """The interval of samples in the log if the commands are interpolated between them [s]."""
+    source: str = ""
+    """The topic of the commands, of a recording."""
 
     def __post_init__(self) -> None:
         _check_shapes(self.times, values=(self.values, len(self.names)))
+
+    @property
+    def interval(self) -> float:
+        """The median interval of the samples in the log [s]; 0 with fewer than two."""
+        if self.sample_interval is not None:
+            return self.sample_interval
+        return float(np.median(np.diff(self.times))) if len(self.times) > 1 else 0.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -10,6 +10,12 @@ from ..scene.hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrod
 from ..scene.spec import SceneSpec
 
 AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+CLOCK_KEY = "command_clock"
+"""The key of the clock of the commands."""
+LAG_KEY = "thruster_lag"
+"""The key of the lag of the thrusters."""
+MAX_SHIFT = 0.95
+"""The greatest shift of the clock of the commands [s]."""
 
 Change = Callable[[VehicleHydrodynamics, float], VehicleHydrodynamics]
 """A function that returns the hydrodynamics with a coefficient scaled by a factor."""
@@ -29,6 +35,28 @@ class Coefficient:
     """The place of the coefficient in the hydrodynamics file."""
     step: float = 0.05
     """The relative change by which its effect is computed."""
+    limits: tuple[float, float] = (0.05, 20.0)
+    """The limits of a factor."""
+
+    @property
+    def is_clock(self) -> bool:
+        """The mark of the clock of the commands, whose factor is 1 + the shift of times [s]."""
+        return self.key == CLOCK_KEY
+
+
+def describe_clock(kind: str) -> Coefficient:
+    """Return the clock of the commands, a cause that is no coefficient of the vehicle.
+
+    Args:
+        kind: the kind of the commands, for the place in the mapping file.
+    """
+    return Coefficient(
+        key=CLOCK_KEY,
+        name="clock of the commands",
+        change=lambda dynamics, factor: dynamics,
+        advice=f"clock_offset of [commands.{kind}] in a mapping file",
+        limits=(1.0 - MAX_SHIFT, 1.0 + MAX_SHIFT),
+    )
 
 
 def list_coefficients(dynamics: VehicleHydrodynamics, link: str) -> list[Coefficient]:
@@ -63,7 +91,7 @@ def list_coefficients(dynamics: VehicleHydrodynamics, link: str) -> list[Coeffic
     if any(thruster.time_constant > 0.0 for thruster in dynamics.thrusters):
         coefficients.append(
             Coefficient(
-                key="thruster_lag",
+                key=LAG_KEY,
                 name="lag of the thrusters",
                 change=_scale_lags,
                 advice="<timeConstant> of all thrusters",

@@ -18,19 +18,27 @@ from ..scene.spec import SceneSpec
 from ..simulation import Simulation
 from .attribution import Attribution, attribute_residual
 from .autopilot_motors import name_motors
-from .coefficients import Coefficient, list_coefficients, scale_coefficient
+from .coefficients import (
+    LAG_KEY,
+    Coefficient,
+    describe_clock,
+    list_coefficients,
+    scale_coefficient,
+)
 from .errors import HorizonError, choose_main_horizon, summarize_horizon
 from .gap import Gap
 from .log_motion import LogMotion, read_motion, relative_motion
 from .residuals import StepResiduals, choose_steps, measure_residuals
 from .sensor_residuals import SensorComparison, SensorResidual
 from .settings import GapSettings
-from .vehicle_commands import VehicleCommands
+from .vehicle_commands import VehicleCommands, shift_commands
 from .vehicle_run import VehicleRun, find_vehicle
 from .windows import Windows, choose_windows
 
 N_CURVE = 80
 """The number of points of the curves of the error over the horizon."""
+N_REFINED_RUNS = 9
+"""The usual number of runs of the windows for refined factors, for the progress."""
 MAX_TRACKS = 40
 """The greatest number of windows whose tracks are kept."""
 AUTOPILOT_FORMATS = ("bin", "tlog")
@@ -89,12 +97,14 @@ class _Measurement:
                 "the scene has waves or currents; each window begins at their time 0."
             )
         self._log = name_motors(log, self._model.scene.vehicles[self._index])
+        self._command_kinds: tuple[str, ...] = ()
 
     def run(self) -> Gap:
         """Measure the gap."""
         settings = self._settings
         with self._open(self._model) as run:
             commands = run.commands
+            self._command_kinds = commands.kinds
             windows = choose_windows(
                 self._motion, commands.start, commands.end, settings.horizons, settings.n_windows
             )
@@ -147,8 +157,8 @@ class _Measurement:
             compatibility=model.compatibility,
         )
 
-    def _open(self, model: SceneModel) -> _OpenRun:
-        return _OpenRun(model, self._log, self._index, self._motion)
+    def _open(self, model: SceneModel, shift: float = 0.0) -> _OpenRun:
+        return _OpenRun(model, shift_commands(self._log, shift), self._index, self._motion)
 
     def _compare(
         self, run: VehicleRun, windows: Windows
@@ -252,7 +262,10 @@ class _Measurement:
     def _attribute(self, windows: Windows) -> Attribution:
         dynamics = self._model.dynamics[self._index]
         root = self._model.robots[self._index].root
-        coefficients = list_coefficients(dynamics, root)
+        coefficients = [
+            *self._list_measurable(list_coefficients(dynamics, root)),
+            *(describe_clock(kind) for kind in self._command_kinds[:1]),
+        ]
         horizon = self._settings.horizons[0]
         weights = np.array([1.0] * 3 + [self._radius()] * 3)
         ends = windows.starts + horizon
@@ -263,13 +276,14 @@ class _Measurement:
             for coefficient, factor in changes:
                 new_dynamics = coefficient.change(new_dynamics, factor)
             scene = scale_coefficient(self._scene, self._index, dynamics, new_dynamics)
-            model = self._compile(scene) if changes else self._model
-            with self._open(model) as run:
+            model = self._model if new_dynamics is dynamics else self._compile(scene)
+            shift = sum(factor - 1.0 for coefficient, factor in changes if coefficient.is_clock)
+            with self._open(model, shift) as run:
                 twists = [run.run(start, [horizon]).twists[0] for start in windows.starts.tolist()]
             velocities: Array = np.array(twists) * weights
             return velocities
 
-        with self._progress("attribution", len(coefficients) + 4) as on_run:
+        with self._progress("attribution", len(coefficients) + N_REFINED_RUNS) as on_run:
             return attribute_residual(
                 measurements,
                 coefficients,
@@ -279,6 +293,20 @@ class _Measurement:
                 seed=self._settings.seed,
                 on_run=on_run,
             )
+
+    def _list_measurable(self, coefficients: list[Coefficient]) -> list[Coefficient]:
+        """Return the coefficients that commands of the log's interval can measure."""
+        interval = next((part.interval for part in self._log.commands), 0.0)
+        thrusters = self._model.dynamics[self._index].thrusters
+        lag = max((thruster.time_constant for thruster in thrusters), default=0.0)
+        is_sampled = any(part.sample_interval is not None for part in self._log.commands)
+        if not is_sampled or interval <= lag or lag <= 0.0:
+            return coefficients
+        self._remarks.append(
+            f"commands at {1.0 / interval:.3g} Hz, lag of the thrusters {lag:.3g} s: the log "
+            "cannot measure the lag. Between samples, the commands are interpolated."
+        )
+        return [coefficient for coefficient in coefficients if coefficient.key != LAG_KEY]
 
     def _radius(self) -> float:
         """Return the root mean square of the radii of gyration about the base's axes [m]."""

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -104,6 +105,14 @@ class VehicleCommands:
                 target = min(max(float(values[index, thruster]), -1.0), 1.0)
                 speeds[thruster] += share * (target - speeds[thruster])
         return np.array(speeds)
+
+
+def shift_commands(log: VehicleLog, shift: float) -> VehicleLog:
+    """Return a log whose commands take effect later by a time, or earlier if it is negative [s]."""
+    if shift == 0.0:
+        return log
+    commands = tuple(replace(part, times=part.times + shift) for part in log.commands)
+    return replace(log, commands=commands)
 
 
 def _apply_thrusters(vehicle: SceneVehicle, values: Array) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from .attribution import Attribution, Cause
+from .attribution import MIN_EVIDENT_SHARE, Attribution, Cause
 from .errors import AXES, HorizonError, choose_main_horizon
 
 MAX_SHARE = 0.01
@@ -46,9 +46,31 @@ def state_verdict(
     text = describe_error(error, radius)
     if attribution is None:
         return f"{text}."
+    cause = attribution.evident_cause
+    if cause is not None:
+        return f"{text}; {describe_cause(attribution, cause)}."
+    return f"{text}; {_describe_best(attribution)}."
+
+
+def _describe_best(attribution: Attribution) -> str:
+    """Return the clause that no coefficient explains the error, with the best."""
+    text = "no coefficient of the vehicle explains it"
     if not attribution.causes:
-        return f"{text}; no coefficient of the vehicle explains it."
-    return f"{text}; {describe_cause(attribution, attribution.causes[0])}."
+        return text
+    cause = attribution.causes[0]
+    share = f"{100.0 * cause.share:.2g} % of the error of {attribution.duration:g} s"
+    return f"{text} (the best, {cause.coefficient.name}: {share}, {_state_doubt(cause)})"
+
+
+def _state_doubt(cause: Cause) -> str:
+    """Return the reason for which a coefficient is not evident."""
+    if cause.share < MIN_EVIDENT_SHARE:
+        return f"below {100.0 * MIN_EVIDENT_SHARE:g} %"
+    if cause.low is None or cause.high is None:
+        return "without an interval"
+    if not cause.coefficient.is_clock and cause.low <= 0.0:
+        return "with an interval that has impossible values"
+    return "with an interval that has 1, no change"
 
 
 def is_followed(error: HorizonError) -> bool:
@@ -79,6 +101,8 @@ def describe_error(error: HorizonError, radius: float) -> str:
 def describe_cause(attribution: Attribution, cause: Cause) -> str:
     """Return the clause about the coefficient that explains the most."""
     motion = _describe_motion(attribution, cause)
+    if cause.coefficient.is_clock:
+        return _describe_shift(attribution, cause)
     limits = "" if cause.low is None else f" ({cause.low:.3g} to {cause.high:.3g})"
     text = (
         f"{motion}{cause.coefficient.name}: {cause.factor:.3g} times its value{limits} explains "
@@ -86,6 +110,22 @@ def describe_cause(attribution: Attribution, cause: Cause) -> str:
     )
     if cause.equivalents:
         text += f"; the log cannot tell it from {' or '.join(cause.equivalents)}"
+    return text
+
+
+def _describe_shift(attribution: Attribution, cause: Cause) -> str:
+    """Return the clause about the clock of the commands: late if they must begin earlier."""
+    direction = "late" if cause.shift < 0.0 else "early"
+    limits = ""
+    if cause.low is not None and cause.high is not None:
+        low, high = sorted((abs(cause.low - 1.0), abs(cause.high - 1.0)))
+        limits = f" ({low:.3f} to {high:.3f})"
+    text = (
+        f"the clock of the commands is {abs(cause.shift):.3f} s{limits} {direction}, which "
+        f"explains {100.0 * cause.share:.3g} % of the error of {attribution.duration:g} s"
+    )
+    if cause.equivalents:
+        text += f"; the log cannot tell it from the {' or the '.join(cause.equivalents)}"
     return text
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from ...version import __version__
 from ..attribution import Attribution
+from ..coefficients import Coefficient
 from ..errors import AXES, Estimate, HorizonError
 from ..gap import Gap
 
@@ -118,16 +119,16 @@ def _describe(attribution: Attribution) -> dict[str, Any]:
         "n_windows": attribution.n_windows,
         "residual": round_number(attribution.residual),
         "remainder": round_number(attribution.remainder),
+        "unexplained_share": round_number(attribution.unexplained_share),
         "causes": [
             {
                 "coefficient": cause.coefficient.key,
                 "name": cause.coefficient.name,
                 "place": cause.coefficient.advice,
-                "factor": round_number(cause.factor),
-                "low": round_number(cause.low),
-                "high": round_number(cause.high),
+                **_describe_factor(cause.coefficient, cause.factor, cause.low, cause.high),
                 "share": round_number(cause.share),
                 "confidence": round_number(cause.confidence),
+                "is_evident": cause.is_evident,
                 "equivalents": list(cause.equivalents),
             }
             for cause in attribution.causes
@@ -137,9 +138,25 @@ def _describe(attribution: Attribution) -> dict[str, Any]:
             for axis, ratio in zip(AXES, attribution.speed_ratios, strict=True)
         },
         "single_coefficients": [
-            {"name": name, "share": round_number(share), "factor": round_number(factor)}
-            for name, share, factor in attribution.shares
+            {
+                "name": row.coefficient.name,
+                "share": round_number(row.share),
+                **_describe_factor(row.coefficient, row.factor),
+            }
+            for row in attribution.shares
         ],
+    }
+
+
+def _describe_factor(
+    coefficient: Coefficient, factor: float, *limits: float | None
+) -> dict[str, float | None]:
+    """Return the factor with its limits, or the shift of a clock [s]."""
+    offset, name = (1.0, "shift") if coefficient.is_clock else (0.0, "factor")
+    numbers = dict(zip((name, "low", "high"), (factor, *limits), strict=False))
+    return {
+        key: None if number is None else round_number(number - offset)
+        for key, number in numbers.items()
     }
 
 

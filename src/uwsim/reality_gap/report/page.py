@@ -7,17 +7,27 @@ from pathlib import Path
 
 from ...analysis.templates import data_url, template
 from ...version import __version__
+from ..attribution import Attribution
 from ..errors import choose_main_horizon
 from ..gap import Gap
-from .tables import axis_rows, cause_row, format_number, horizon_row, input_rows, sensor_row
+from .tables import (
+    axis_rows,
+    cause_row,
+    format_factor,
+    format_number,
+    horizon_row,
+    input_rows,
+    rest_row,
+    sensor_row,
+)
 
 CAPTIONS = {
     "horizon": "Root mean square of the error over the time after the beginning of a window. "
-    "Marks: the horizons, with 95 % intervals.",
+    "Marks: the horizons, with 95 % intervals; hollow: too few independent windows for one.",
     "tracks": "Track of the log, and the simulation from states of the log (dots). "
     "Left: from above. Right: over time.",
-    "coefficients": "Share of the error that one coefficient alone would explain, with its factor "
-    "by the linear effect. Orange: the named one, with its final factor.",
+    "coefficients": "Share of the error that each coefficient removes in turn, with its factor and "
+    "95 % interval, as in the table. Orange: named by the verdict. Grey: unexplained.",
     "spectrum": "Spectral density of the residual acceleration of one step, along the log.",
 }
 
@@ -36,12 +46,12 @@ def render(gap: Gap, plots: Mapping[str, Path]) -> str:
         }
         for item in gap.horizons
     ]
-    if attribution is not None and attribution.causes:
-        cause = attribution.causes[0]
+    cause = None if attribution is None else attribution.evident_cause
+    if cause is not None:
         cards.append(
             {
                 "label": cause.coefficient.name,
-                "value": f"× {cause.factor:.3g}",
+                "value": format_factor(cause).split(" (")[0],
                 "note": f"explains {100.0 * cause.share:.3g} % of the error",
             }
         )
@@ -54,7 +64,7 @@ def render(gap: Gap, plots: Mapping[str, Path]) -> str:
         horizons=[horizon_row(item) for item in gap.horizons],
         tables=[(f"{item.horizon:g} s", axis_rows(item)) for item in gap.horizons],
         main_horizon=f"{error.horizon:g} s",
-        causes=[] if attribution is None else [cause_row(cause) for cause in attribution.causes],
+        causes=_cause_rows(attribution),
         attribution=attribution,
         residual="" if attribution is None else format_number(attribution.residual),
         remainder="" if attribution is None else format_number(attribution.remainder),
@@ -66,3 +76,10 @@ def render(gap: Gap, plots: Mapping[str, Path]) -> str:
         remarks=gap.remarks,
         version=__version__,
     )
+
+
+def _cause_rows(attribution: Attribution | None) -> list[tuple[str, ...]]:
+    """Return the rows of the causes and of the rest; none without a cause."""
+    if attribution is None or not attribution.causes:
+        return []
+    return [*map(cause_row, attribution.causes), rest_row(attribution)]

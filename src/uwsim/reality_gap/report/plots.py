@@ -13,10 +13,9 @@ from ...analysis.plots import GREY, INK, MARKERS, PALETTE, save_pdf, save_plot, 
 from ..errors import AXES, choose_main_horizon
 from ..gap import Gap
 from ..residuals import StepResiduals
+from .tables import format_factor
 
 SIZE = (7.2, 2.9)
-MAX_BARS = 10
-"""The greatest number of coefficients in the plot of shares."""
 GROUPS = ((slice(0, 3), 1.0, "m"), (slice(3, 6), math.degrees(1.0), "°"))
 """The axes, the factor and the unit of displacements and of rotations."""
 
@@ -46,8 +45,28 @@ def _draw_horizon(gap: Gap) -> Figure:
             axes.set_ylabel(f"RMS error [{unit}]")
             axes.set_xlim(left=0.0)
             axes.set_ylim(bottom=0.0)
+            _mark_few_windows(axes, gap)
             axes.legend(loc="upper left")
     return figure
+
+
+def _mark_few_windows(axes: Axes, gap: Gap) -> None:
+    """Mark horizons with too few independent windows for an interval."""
+    for error in gap.horizons:
+        if error.distance.low is None:
+            axes.axvline(error.horizon, color=GREY, linewidth=0.7, linestyle=":", zorder=0)
+            axes.annotate(
+                f"n = {error.n_blocks:.3g}, no interval",
+                (error.horizon, 0.02),
+                xycoords=("data", "axes fraction"),
+                xytext=(-3, 0),
+                textcoords="offset points",
+                rotation=90,
+                ha="right",
+                va="bottom",
+                fontsize=6.5,
+                color=INK,
+            )
 
 
 def _draw_estimates(axes: Axes, gap: Gap, index: int, factor: float, colour: str) -> None:
@@ -63,7 +82,9 @@ def _draw_estimates(axes: Axes, gap: Gap, index: int, factor: float, colour: str
             yerr=limits,
             color=colour,
             marker=MARKERS[index % 3],
+            markerfacecolor="white" if limits is None else colour,
             markersize=4,
+            zorder=3,
             capsize=2,
             elinewidth=0.9,
             linestyle="-",
@@ -133,23 +154,45 @@ def _draw_spectrum(residuals: StepResiduals) -> Figure:
 
 
 def _draw_shares(gap: Gap) -> Figure:
+    """Draw the shares of the causes, each from the end of the one before, and of the rest."""
     assert gap.attribution is not None
-    rows = gap.attribution.shares[:MAX_BARS][::-1]
-    factors = {cause.coefficient.name: cause.factor for cause in gap.attribution.causes[:1]}
-    with styled_figure((7.2, 0.7 + 0.24 * len(rows))) as figure:
+    causes = gap.attribution.causes
+    names = [cause.coefficient.name for cause in causes]
+    shares = [100.0 * cause.share for cause in causes]
+    texts = [f"{100.0 * cause.share:.3g} %, {format_factor(cause)}" for cause in causes]
+    evident = gap.attribution.evident_cause
+    colours = [PALETTE[1] if cause is evident else PALETTE[0] for cause in causes]
+    rest = 100.0 * gap.attribution.unexplained_share
+    names, shares, texts = [*names, "unexplained"], [*shares, rest], [*texts, f"{rest:.3g} %"]
+    starts = [sum(shares[:row]) for row in range(len(shares))]
+    with styled_figure((7.2, 0.95 + 0.34 * len(shares))) as figure:
         axes = figure.subplots()
-        shares = [100.0 * share for _, share, _ in rows]
-        colours = [PALETTE[1] if name in factors else PALETTE[0] for name, _, _ in rows]
-        axes.barh(range(len(rows)), shares, color=colours, height=0.62)
-        axes.set_yticks(range(len(rows)), [name for name, _, _ in rows])
-        axes.grid(visible=False, axis="y")
-        axes.set_xlim(0.0, 112.0)
-        axes.set_xticks(range(0, 101, 20))
-        axes.set_xlabel(
-            f"share of the error of {gap.attribution.duration:g} s that the coefficient alone "
-            "explains [%]"
+        axes.barh(
+            range(len(shares)),
+            shares,
+            left=starts,
+            color=[*colours, GREY],
+            height=0.56,
         )
-        for place, (name, share, linear_factor) in enumerate(rows):
-            text = f"× {factors.get(name, linear_factor):.3g}"
-            axes.text(100.0 * share + 1.0, place, text, va="center", fontsize=7, color=INK)
+        for row, (start, share, text) in enumerate(zip(starts, shares, texts, strict=True)):
+            end = start + share
+            if row + 1 < len(shares):
+                axes.plot([end, end], [row, row + 1], color=GREY, linewidth=0.7, zorder=0)
+            is_left = start > 50.0
+            axes.text(
+                start - 1.0 if is_left else end + 1.0,
+                row,
+                text,
+                va="center",
+                ha="right" if is_left else "left",
+                fontsize=7,
+                color=INK,
+                bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+            )
+        axes.set_yticks(range(len(shares)), names)
+        axes.invert_yaxis()
+        axes.grid(visible=False, axis="y")
+        axes.set_xlim(0.0, 145.0 if max(starts) <= 50.0 or starts[-1] <= 50.0 else 130.0)
+        axes.set_xticks(range(0, 101, 20))
+        axes.set_xlabel(f"share of the error of {gap.attribution.duration:g} s [%]", loc="left")
     return figure

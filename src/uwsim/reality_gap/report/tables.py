@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..attribution import Cause
+from ..attribution import Attribution, Cause
 from ..errors import AxisError, Estimate, HorizonError
 from ..gap import Gap
 from ..sensor_residuals import SensorResidual
@@ -54,15 +54,32 @@ def horizon_row(error: HorizonError) -> tuple[str, str, str, str, str]:
 
 def cause_row(cause: Cause) -> tuple[str, str, str, str, str]:
     """Return coefficient, factor, share of the error, confidence, and place in the file."""
-    limits = "" if cause.low is None else f" ({cause.low:.3g} to {cause.high:.3g})"
     confidence = "–" if cause.confidence is None else f"{100.0 * cause.confidence:.3g} %"
     return (
         cause.coefficient.name,
-        f"{cause.factor:.3g}{limits}",
+        format_factor(cause),
         f"{100.0 * cause.share:.3g} %",
         confidence,
         cause.coefficient.advice,
     )
+
+
+def rest_row(attribution: Attribution) -> tuple[str, str, str, str, str]:
+    """Return the row of the share that no coefficient explains."""
+    return ("unexplained", "", f"{100.0 * attribution.unexplained_share:.3g} %", "", "")
+
+
+def format_factor(cause: Cause) -> str:
+    """Return a factor, or the shift of the clock, with its interval: ``× 1.5 (1.4 to 1.6)``."""
+    if cause.coefficient.is_clock:
+        limits = (
+            ""
+            if cause.low is None or cause.high is None
+            else f" ({cause.low - 1.0:+.3f} to {cause.high - 1.0:+.3f})"
+        )
+        return f"{cause.shift:+.3f} s{limits}"
+    limits = "" if cause.low is None else f" ({cause.low:.3g} to {cause.high:.3g})"
+    return f"× {cause.factor:.3g}{limits}"
 
 
 def sensor_row(residual: SensorResidual) -> tuple[str, str, str, str, str]:

@@ -7,7 +7,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..gap import Gap
-from .tables import axis_rows, cause_row, horizon_row, sensor_row
+from .tables import axis_rows, cause_row, horizon_row, rest_row, sensor_row
 
 
 def print_gap(gap: Gap, console: Console) -> None:
@@ -32,6 +32,7 @@ def print_gap(gap: Gap, console: Console) -> None:
         )
         for cause in gap.attribution.causes:
             table.add_row(*map(Text, cause_row(cause)[:4]))
+        table.add_row(*map(Text, rest_row(gap.attribution)[:4]))
         console.print(table)
     if gap.sensors:
         table = _make_table(
