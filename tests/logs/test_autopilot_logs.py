@@ -187,7 +187,8 @@ def test_a_telemetry_log_has_motion_commands_and_sensors(overflow: bool, tmp_pat
     np.testing.assert_allclose(log.motion.twists[:, 5], 0.3, atol=1e-6)
     [commands] = log.commands
     assert commands.names == ("motor1", "motor2")
-    np.testing.assert_allclose(commands.values, [[1.0, -1.0]] * 41)
+    assert commands.interval == pytest.approx(0.1, abs=1e-6)
+    np.testing.assert_allclose(commands.values, [[1.0, -1.0]] * len(commands.times))
     assert log.sensors["pressure"].values[0, 0] == pytest.approx(201000.0)
 
 

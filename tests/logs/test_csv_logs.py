@@ -324,3 +324,49 @@ def test_columns_with_two_places_wrong_signs_and_delays_are_reported_at_once(
         "7: signs of [commands.thrusters] has 5; expected -1 or 1",
         "8: delay of [commands.thrusters] is -5; expected 0 to 10 s",
     ]
+
+
+def make_track(**positions: str) -> str:
+    """Return a log of 40 samples at 10 Hz along x, with some positions replaced."""
+    rows = [f"{0.1 * k:.1f},{positions.get(f'x{k}', 0.1 * k)},0,5,1,0,0,0" for k in range(40)]
+    return "time,x,y,z,qw,qx,qy,qz\n" + "\n".join(rows) + "\n"
+
+
+def test_spikes_of_a_position_are_removed_with_their_lines(tmp_path: Path) -> None:
+    log = read(tmp_path, make_track(x10="1e11", x20="-40", x21="60"))
+    assert log.motion is not None
+    assert len(log.motion.times) == 37
+    assert np.abs(log.motion.positions).max() < 6.0
+    assert any(
+        "3 samples with a position beyond 1 m and 30 m/s" in remark
+        and remark.endswith("removed: lines 12, 22, 23.")
+        for remark in log.remarks
+    )
+
+
+def test_a_step_of_a_position_that_lasts_is_no_spike(tmp_path: Path) -> None:
+    """A correction of the navigation is a step, and remains."""
+    log = read(tmp_path, make_track(**{f"x{k}": str(0.1 * k + 30.0) for k in range(20, 40)}))
+    assert log.motion is not None
+    assert len(log.motion.times) == 40
+
+
+def test_a_coordinate_that_most_samples_lack_removes_none(tmp_path: Path) -> None:
+    log = read(tmp_path, make_track(**{f"x{k}": "" for k in range(40) if k % 5}))
+    assert log.motion is not None
+    assert len(log.motion.times) == 40
+
+
+def test_a_header_of_ten_million_columns_is_refused_before_the_file_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "wide.csv"
+    path.write_text("a," * 10_000_000 + "\n")
+    monkeypatch.setattr("uwsim.logs.csv_log.read_document", lambda *a, **k: pytest.fail("read"))
+    with pytest.raises(LogError, match=r"wide\.csv:1: has more than 262144 bytes"):
+        read_log(path)
+
+
+def test_a_row_longer_than_any_row_can_be_is_an_error_with_its_line(tmp_path: Path) -> None:
+    with pytest.raises(LogError, match=r"log\.csv:\d+: not CSV: a line has more than 262144"):
+        read(tmp_path, make_track(x5="1" * 300_000))

@@ -16,6 +16,18 @@ from .frames import (
     convert_positions,
     rotate_vectors_back,
 )
+from .outliers import (
+    MAX_ANGULAR,
+    MAX_JUMP,
+    MAX_LINEAR,
+    MAX_SPEED,
+    NEIGHBOURS,
+    Mask,
+    find_fast_twists,
+    find_missing_coordinates,
+    find_spikes,
+    list_places,
+)
 from .smoothing import HALF_WIDTH, estimate_twists
 from .vehicle_log import MotionSeries
 
@@ -34,11 +46,13 @@ def make_motion(
     remarks: list[str],
     is_world_velocity: bool = False,
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
+    lines: Array | None = None,
 ) -> MotionSeries | None:
     """Return the motion in L and base axes; None without a valid sample.
 
-    Samples without an orientation are removed. Quaternions are normalized. Missing twists are
-    estimated from the poses (`smoothing`), which a remark states.
+    Samples without an orientation are removed, and those with a wrong position (`outliers`).
+    Quaternions are normalized. Missing twists are estimated from the poses (`smoothing`). Remarks
+    state all of it.
 
     Args:
         times: the times, strictly increasing, (n,) [s].
@@ -50,7 +64,11 @@ def make_motion(
         remarks: the list to which repairs are added.
         is_world_velocity: True if the linear velocities have the axes of the log's world frame.
         origin: the position of the log's origin in L, (3,) [m].
+        lines: the line of each sample in its file, (n,); None: samples have no lines.
     """
+    keep = _find_positions(times, positions, lines, remarks)
+    times, positions, quaternions = times[keep], positions[keep], quaternions[keep]
+    twists = None if twists is None else _remove_fast_twists(twists[keep], remarks)
     norms = np.sqrt((quaternions * quaternions).sum(axis=1))
     is_valid = np.isfinite(norms) & (norms > 1e-6)
     if not is_valid.all():
@@ -79,6 +97,37 @@ def make_motion(
         twists=twists,
         twist_source=source,
     )
+
+
+def _find_positions(
+    times: Array, positions: Array, lines: Array | None, remarks: list[str]
+) -> Mask:
+    """Mark the samples whose positions remain, and state the others with their places."""
+    is_missing = find_missing_coordinates(positions)
+    is_spike = np.zeros(len(times), dtype=np.bool_)
+    is_spike[~is_missing] = find_spikes(times[~is_missing], positions[~is_missing])
+    limits = f"{MAX_JUMP:g} m and {MAX_SPEED:g} m/s from the median of {NEIGHBOURS} samples"
+    for mask, text in (
+        (is_missing, "without all coordinates of the position"),
+        (is_spike, f"with a position beyond {limits}"),
+    ):
+        if mask.any():
+            count = int(mask.sum())
+            samples = "1 sample" if count == 1 else f"{count} samples"
+            places = list_places(mask, times, None if lines is None else lines.tolist())
+            remarks.append(f"motion: {samples} {text}; removed: {places}.")
+    return ~(is_missing | is_spike)
+
+
+def _remove_fast_twists(twists: Array, remarks: list[str]) -> Array:
+    is_fast = find_fast_twists(twists)
+    if is_fast.any():
+        remarks.append(
+            f"motion: {int(is_fast.sum())} samples with a twist beyond {MAX_LINEAR:g} m/s or "
+            f"{MAX_ANGULAR:g} rad/s; removed."
+        )
+        twists = np.where(is_fast[:, None], np.nan, twists)
+    return twists
 
 
 def _complete_twists(

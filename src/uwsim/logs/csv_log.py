@@ -24,7 +24,14 @@ from ..errors import AssetError, Diagnostic, FileError, choices
 from .assemble import check_content, make_motion
 from .csv_columns import COMMAND_UNITS, SENSOR_UNITS, derive_mapping, list_columns, name_columns
 from .frames import convert_body_vectors, quaternions_from_rpy
-from .limits import MAX_COLUMNS, MAX_DIAGNOSTICS, MAX_SAMPLES, MAX_TEXT_BYTES, MAX_VALUE
+from .limits import (
+    MAX_COLUMNS,
+    MAX_DIAGNOSTICS,
+    MAX_LINE,
+    MAX_SAMPLES,
+    MAX_TEXT_BYTES,
+    MAX_VALUE,
+)
 from .mapping import Column, CommandMapping, LogMapping, SensorMapping
 from .samples import ClockReset, Samples
 from .units import SI_UNITS, UNITS, find_unit
@@ -57,6 +64,7 @@ def read_csv_log(path: Path, mapping: LogMapping | None = None, vehicle: str = "
     Raises:
         LogError: the file is invalid; the error has every mistake, with its line and column.
     """
+    _check_first_line(path)
     try:
         text = read_document(path, at_most=MAX_TEXT_BYTES).decode("utf-8-sig")
     except FileError as error:
@@ -69,6 +77,29 @@ def read_csv_log(path: Path, mapping: LogMapping | None = None, vehicle: str = "
         return _Builder(table).build(vehicle)
     except (AssetError, ClockReset) as error:
         raise _error(path, None, str(error)) from None
+
+
+def _check_first_line(path: Path) -> None:
+    """Raise LogError if the first line is too long, before the file is read."""
+    if not path.is_file():
+        return  # `read_document` reports it
+    try:
+        with path.open("rb") as stream:
+            line = stream.readline(MAX_LINE + 1)
+    except OSError:
+        return
+    if len(line) > MAX_LINE:
+        raise _error(path, 1, f"has more than {MAX_LINE} bytes; expected names of columns")
+    if line.count(b",") >= MAX_COLUMNS:
+        raise _error(path, 1, f"more than {MAX_COLUMNS} columns")
+
+
+def _limit_lines(text: str) -> Iterator[str]:
+    """Yield the lines of a text; raise csv.Error for one that is longer than a row can be."""
+    for line in io.StringIO(text):
+        if len(line) > MAX_LINE:
+            raise csv.Error(f"a line has more than {MAX_LINE} characters")
+        yield line
 
 
 def read_header(path: Path) -> list[str]:
@@ -122,12 +153,13 @@ class _Table:
         self._given_mapping = mapping
         self.mapping = mapping or LogMapping()
         self.columns: dict[str, Array] = {}
+        self.lines: Array = np.zeros(0)
         self.time_unit = find_unit(self.mapping.time.unit, "time")
         self._diagnostics: list[Diagnostic] = []
 
     def read(self, text: str) -> None:
         """Read all rows; raise LogError with all errors."""
-        rows = csv.reader(io.StringIO(text), strict=True)
+        rows = csv.reader(_limit_lines(text), strict=True)
         try:
             header = [name.strip() for name in next(rows, [])]
             self._check_header(header)
@@ -168,6 +200,7 @@ class _Table:
         names = list_columns(self.mapping)
         indices = [header.index(name) for name in names]
         numbers = [array("d") for _ in names]
+        lines = array("d")
         for count, row in enumerate(rows, start=1):
             if count > MAX_SAMPLES:
                 self._report(rows.line_num, f"more than {MAX_SAMPLES} rows")
@@ -177,12 +210,14 @@ class _Table:
             if len(row) != len(header):
                 self._report(rows.line_num, f"{len(row)} fields; expected {len(header)}")
                 continue
+            lines.append(rows.line_num)
             for name, index, column in zip(names, indices, numbers, strict=True):
                 column.append(self._read_number(rows.line_num, name, row[index]))
         self.columns = {
             name: np.array(column, dtype=np.float64)
             for name, column in zip(names, numbers, strict=True)
         }
+        self.lines = np.array(lines, dtype=np.float64)
         if not len(numbers[0]):
             self._report(None, "there is no row")
 
@@ -246,9 +281,16 @@ class _Builder:
             return np.full(len(self._times), np.nan)
         return self._table.columns[name]
 
-    def _select(self, values: Array, label: str, *, is_motion: bool = False) -> tuple[Array, Array]:
-        """Return the samples with a number in any column, with their times repaired."""
+    def _select(
+        self, values: Array, label: str, *, is_motion: bool = False, lines: Array | None = None
+    ) -> tuple[Array, Array]:
+        """Return the samples with a number in any column, with their times repaired.
+
+        The lines of the samples, if given, are one more column.
+        """
         has_sample = np.isfinite(values).any(axis=1)
+        if lines is not None:
+            values = np.hstack([values, lines[:, None]])
         samples = Samples(values.shape[1], label)
         for time, row in zip(
             self._times[has_sample].tolist(), values[has_sample].tolist(), strict=True
@@ -281,17 +323,18 @@ class _Builder:
         values[~np.isfinite(values[:, 3:7]).all(axis=1)] = np.nan
         if all(not isinstance(name, str) for name in (*motion.quaternion, *motion.rpy)):
             values[~self._has_position()] = np.nan
-        times, values = self._select(values, "motion", is_motion=True)
+        times, values = self._select(values, "motion", is_motion=True, lines=self._table.lines)
         return make_motion(
             times,
             values[:, :3],
             values[:, 3:7],
-            values[:, 7:] if has_twists else None,
+            values[:, 7:-1] if has_twists else None,
             world=frames.world or "local",
             body=frames.body or "base",
             remarks=self._remarks,
             is_world_velocity=motion.velocity_frame == "world",
             origin=frames.origin,
+            lines=values[:, -1],
         )
 
     def _has_position(self) -> npt.NDArray[np.bool_]:

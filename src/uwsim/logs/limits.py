@@ -10,6 +10,8 @@ MAX_SAMPLES = 5_000_000
 """The greatest number of samples of a series."""
 MAX_COLUMNS = 1000
 """The greatest number of columns of a table."""
+MAX_LINE = 2**18
+"""The longest line of a table [bytes]."""
 MAX_DIAGNOSTICS = 100
 """The greatest number of errors that a reader reports about a file."""
 MAX_VALUE = 1e12

@@ -17,7 +17,8 @@ from ..logs.smoothing import estimate_twists, make_continuous
 class LogMotion:
     """The motion of a log, linear between its samples; no orientation turns half around in one.
 
-    Samples without a whole position and twist are left out, and are gaps.
+    Samples without a whole position and twist are left out. The rest has a gap where the samples
+    are five times as far apart as usual, and 0.5 s at least (`logs.samples.find_gaps`).
 
     Args:
         motion: the motion.
@@ -36,13 +37,11 @@ class LogMotion:
         """The times of the other samples, (n,) [s]."""
         self._positions, self._twists = motion.positions[is_whole], twists[is_whole]
         self._quaternions = make_continuous(motion.quaternions[is_whole])
-        self._is_hole = np.diff(np.flatnonzero(is_whole)) > 1  # (n - 1,): samples are left out
 
     @cached_property
     def gaps(self) -> list[tuple[float, float]]:
         """The beginning and the end of each gap, ascending [s]."""
-        holes = zip(self.times[:-1][self._is_hole], self.times[1:][self._is_hole], strict=True)
-        return sorted({*find_gaps(self.times), *((float(a), float(b)) for a, b in holes)})
+        return find_gaps(self.times)
 
     @cached_property
     def _gap_limits(self) -> Array:
