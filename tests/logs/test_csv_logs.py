@@ -345,7 +345,7 @@ def test_spikes_of_a_position_are_removed_with_their_lines(tmp_path: Path) -> No
 
 
 def test_a_step_of_a_position_that_lasts_is_no_spike(tmp_path: Path) -> None:
-    """A correction of the navigation is a step, and remains."""
+    """Keep a correction of the navigation, which is a step."""
     log = read(tmp_path, make_track(**{f"x{k}": str(0.1 * k + 30.0) for k in range(20, 40)}))
     assert log.motion is not None
     assert len(log.motion.times) == 40

@@ -26,6 +26,7 @@ from .csv_columns import COMMAND_UNITS, SENSOR_UNITS, derive_mapping, list_colum
 from .frames import convert_body_vectors, quaternions_from_rpy
 from .limits import (
     MAX_COLUMNS,
+    MAX_COMMAND,
     MAX_DIAGNOSTICS,
     MAX_LINE,
     MAX_SAMPLES,
@@ -347,6 +348,10 @@ class _Builder:
 
     def _make_commands(self, kind: CommandKind, spec: CommandMapping) -> CommandSeries:
         values = self._stack(spec.columns, spec.unit or COMMAND_UNITS[kind] or "1")
+        if spec.unit == "pwm" and not (np.abs(self._stack(spec.columns, "1")) > MAX_COMMAND).any():
+            self._remarks.append(
+                f'commands.{kind}: unit = "pwm", but all values are from -1 to 1; set unit = "1".'
+            )
         if spec.signs:
             values = values * np.array(spec.signs)
         times, values = self._select(values, f"commands.{kind}")

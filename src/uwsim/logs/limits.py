@@ -18,3 +18,5 @@ MAX_VALUE = 1e12
 """The greatest absolute value of a sample in SI units; a larger value is an error."""
 MAX_NAME = 200
 """The longest name of a column or a channel [characters]."""
+MAX_COMMAND = 1.01
+"""The greatest command of a thruster without a remark: 1, and rounding."""

@@ -9,14 +9,13 @@ import numpy as np
 
 from ..errors import BadSetting, Diagnostic, choices
 from .csv_log import LogError, read_csv_log
+from .limits import MAX_COMMAND
 from .mapping import LogMapping
 from .mapping_reader import read_mapping
 from .vehicle_log import VehicleLog
 
 SUFFIXES = (".csv", ".mcap", ".bag", ".db3", ".bin", ".tlog")
 """The suffixes of logs."""
-MAX_COMMAND = 1.01
-"""The greatest command of a thruster without a remark: 1, and rounding."""
 
 
 def read_log(
@@ -36,12 +35,15 @@ def read_log(
     Raises:
         UwsimError: the log or the mapping file is invalid; the error has all mistakes of the file.
     """
-    log = _read_format(Path(path), mapping, vehicle or "")
-    return replace(log, remarks=(*log.remarks, *_describe_commands(log)))
-
-
-def _read_format(file: Path, mapping: str | Path | LogMapping | None, name: str) -> VehicleLog:
     log_mapping = read_mapping(Path(mapping)) if isinstance(mapping, str | Path) else mapping
+    log = _read_format(Path(path), log_mapping, vehicle or "")
+    place = ""
+    if log_mapping is not None and log_mapping.vehicle and log_mapping.vehicle == log.vehicle:
+        place = f"{log_mapping.path}:{log_mapping.vehicle_line}"
+    return replace(log, remarks=(*log.remarks, *_describe_commands(log)), vehicle_place=place)
+
+
+def _read_format(file: Path, log_mapping: LogMapping | None, name: str) -> VehicleLog:
     if not file.exists():
         raise LogError([Diagnostic(file=str(file), line=None, message="does not exist")])
     suffix = file.suffix.lower()

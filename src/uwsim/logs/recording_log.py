@@ -6,7 +6,9 @@ several of one type.
 ==========================================  =================================================
 ``nav_msgs/Odometry``                       motion
 ``geometry_msgs/PoseStamped``               motion, if there is no odometry
-``std_msgs/Float64MultiArray``              commands of thrusters; of fins if its name has "fin"
+``std_msgs/Float64MultiArray``              commands of thrusters; of fins if its name has "fin";
+                                            preferred: those that an autopilot has applied,
+                                            ``VEHICLE/autopilot/thrusters``; never its sticks
 ``geometry_msgs/WrenchStamped``             commands of a wrench, if a mapping names the topic
 ``geometry_msgs/TwistStamped``, ``Twist``   commands of a twist
 ``sensor_msgs/Imu``, DVL, Pressure,         sensors, by the last part of the topic
@@ -44,6 +46,10 @@ COMMAND_TYPES: Mapping[CommandKind, tuple[str, ...]] = {
     "twist": ("geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/Twist"),
 }
 """The types of messages that carry each kind of commands."""
+APPLIED = "/autopilot/thrusters"
+"""The end of the topic of the commands that an autopilot has applied (`devices.ardupilot`)."""
+PILOT_NAMES = ("sticks", "joy", "joystick", "manual_control", "rc", "axes")
+"""The names of topics with the inputs of a pilot."""
 COMMAND_NAMES: Mapping[str, tuple[str, ...]] = {
     "wrench": ("fx", "fy", "fz", "mx", "my", "mz"),
     "twist": ("u", "v", "w", "p", "q", "r"),
@@ -166,13 +172,21 @@ def _choose_commands(
         return None
     if kind in ("thrusters", "fins"):
         topics = [topic for topic in topics if ("fin" in topic.lower()) is (kind == "fins")]
-        topics = [topic for topic in topics if "thruster" in topic.lower()] or topics
+        applied_topics = [topic for topic in topics if topic.endswith(APPLIED)]
+        named_topics = [topic for topic in topics if "thruster" in topic.lower()]
+        topics = applied_topics or named_topics or [t for t in topics if not _is_of_pilot(t)]
     if len(topics) > 1:
         raise BadSetting(
             f"{len(topics)} topics may carry commands of {kind}: {', '.join(topics)}. Name "
             f"{kind} in [topics] of a mapping file, or choose by --vehicle."
         )
     return topics[0] if topics else None
+
+
+def _is_of_pilot(topic: str) -> bool:
+    """Return whether a topic has the sticks of a pilot, or is another input of an autopilot."""
+    parts = topic.lower().strip("/").split("/")
+    return "autopilot" in parts[:-1] or parts[-1] in PILOT_NAMES
 
 
 class _Collector:
@@ -244,7 +258,7 @@ def _assemble(
                 values=role.sensor.convert(values, frames.body or "base"),
             )
         else:
-            commands.append(_make_commands(role.kind, times, values, mapping))
+            commands.append(_make_commands(collector, times, values, mapping))
     check_content(motion, len(commands), path.name)
     return VehicleLog(
         path=str(path),
@@ -259,7 +273,10 @@ def _assemble(
     )
 
 
-def _make_commands(kind: Any, times: Any, values: Any, mapping: LogMapping) -> CommandSeries:
+def _make_commands(
+    collector: _Collector, times: Any, values: Any, mapping: LogMapping
+) -> CommandSeries:
+    kind: Any = collector.role.kind
     command_kind: CommandKind = kind
     spec = mapping.commands.get(command_kind)
     names = COMMAND_NAMES.get(kind) or tuple(str(i) for i in range(values.shape[1]))
@@ -272,7 +289,9 @@ def _make_commands(kind: Any, times: Any, values: Any, mapping: LogMapping) -> C
         names = spec.names or spec.columns
         values = values * (spec.signs or 1.0)
         times = times + spec.delay + spec.clock_offset
-    return CommandSeries(kind=command_kind, names=names, times=times, values=values)
+    return CommandSeries(
+        kind=command_kind, names=names, times=times, values=values, source=collector.topic
+    )
 
 
 def _name_sensor(topic: str, kind: str, names_in_use: Mapping[str, object]) -> str:

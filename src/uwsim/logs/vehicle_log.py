@@ -114,6 +114,8 @@ class VehicleLog:
     """The hash of the file."""
     vehicle: str
     """The name of the vehicle in the log."""
+    vehicle_place: str = ""
+    """The file and the line of a mapping file that names the vehicle."""
     motion: MotionSeries | None = None
     """The measured motion; None: the log has none."""
     commands: tuple[CommandSeries, ...] = ()

@@ -32,7 +32,7 @@ from .residuals import StepResiduals, choose_steps, measure_residuals
 from .sensor_residuals import SensorComparison, SensorResidual
 from .settings import GapSettings
 from .vehicle_commands import VehicleCommands, shift_commands
-from .vehicle_run import VehicleRun, find_vehicle
+from .vehicle_run import VehicleRun, choose_vehicle
 from .windows import Windows, choose_windows
 
 N_CURVE = 80
@@ -88,7 +88,7 @@ class _Measurement:
         self._remarks = list(log.remarks)
         self._motion = read_motion(log)
         self._scene = model.source
-        self._index = find_vehicle(self._model, vehicle)
+        self._index = choose_vehicle(self._model, log, vehicle)
         self._name = self._model.scene.vehicles[self._index].name
         _check_frame(log, self._model)
         ocean = self._model.scene.ocean_state

@@ -157,7 +157,8 @@ def _sort_columns(series: CommandSeries, names: tuple[str, ...]) -> Array:
         return series.values
     if n_log != n_vehicle:
         raise BadSetting(
-            f"The log has commands for {n_log} {series.kind}, the vehicle has {n_vehicle}: "
+            f"The log has commands for {n_log} {series.kind}"
+            f"{f' ({series.source})' if series.source else ''}, the vehicle has {n_vehicle}: "
             f"{', '.join(names) or 'none'}. Name them in [commands.{series.kind}] of a mapping "
             "file."
         )

@@ -9,11 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.geometry import Array, Pose
-from ..errors import BadSetting, SimulationFailed, UnknownName
+from ..errors import BadSetting, SimulationFailed, UnknownName, choices
+from ..logs import VehicleLog
 from ..model.scene_model import SceneModel
 from ..simulation import Simulation
 from .log_motion import LogMotion
 from .vehicle_commands import VehicleCommands
+
+FORMATS_WITHOUT_NAMES = ("csv", "bin", "tlog")
+"""The formats of logs without the name of a vehicle."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -107,6 +111,27 @@ class VehicleRun:
     def _read_state(self) -> Array:
         pose = self._localized_from_world @ self.vehicle.world_from_base
         return np.concatenate([pose.position, pose.quaternion, self.vehicle.velocity])
+
+
+def choose_vehicle(model: SceneModel, log: VehicleLog, name: str | None) -> int:
+    """Return the index of the vehicle: that of a name, of the mapping file, or the only one.
+
+    A recording has the names of its topics; the mapping of another log names the scene's vehicle.
+
+    Raises:
+        UnknownName: there is no such vehicle.
+        BadSetting: it has no dynamics, or several have.
+    """
+    names = [vehicle.name for vehicle in model.scene.vehicles]
+    is_named = bool(log.vehicle_place) and log.format in FORMATS_WITHOUT_NAMES
+    if name is None and is_named:
+        if log.vehicle not in names:
+            raise BadSetting(
+                f"{log.vehicle_place}: the scene has no vehicle {log.vehicle!r}."
+                f"{choices(log.vehicle, names)}"
+            )
+        name = log.vehicle
+    return find_vehicle(model, name)
 
 
 def find_vehicle(model: SceneModel, name: str | None) -> int:

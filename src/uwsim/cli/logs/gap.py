@@ -56,7 +56,15 @@ class GapOptions:
         ),
     ] = None
     windows: Annotated[
-        int, option(INPUT, "--windows", metavar="N", help="Greatest number of windows.", min=2)
+        int,
+        option(
+            INPUT,
+            "--windows",
+            metavar="N",
+            help="Greatest number of windows, from 2 to 1000.",
+            min=2,
+            max=1000,
+        ),
     ] = 60
     horizons: Annotated[
         str,
