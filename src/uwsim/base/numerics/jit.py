@@ -57,7 +57,8 @@ def njit_borrowed(function: Callable[P, R]) -> Callable[P, R]:
     Its code does not count references to the arrays that it reads and writes, which the caller
     holds. Counting them would take most of the time of a function of a few numbers.
     """
-    dispatcher: Any = numba.njit(nogil=True, error_model="numpy", _nrt=False)(function)
+    options: Any = {"_nrt": False}  # which numba's types do not list
+    dispatcher: Any = numba.njit(nogil=True, error_model="numpy", **options)(function)
     if dispatcher is not function:  # it is the function with NUMBA_DISABLE_JIT
         dispatcher._cache = CacheOnUse(function)
     return cast("Callable[P, R]", dispatcher)

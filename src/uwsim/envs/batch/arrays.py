@@ -56,7 +56,7 @@ class RowArrays(NamedTuple):
     rotors: Floats
     """The rotors of the thrusters (`free_step`), (n, k, 3)."""
     water: Floats
-    """The water at the vehicles (`columns` of the hydrodynamics), (n, 12)."""
+    """The water at the links and the base of each vehicle (`free_step`), (n, links + 1, 12)."""
     origins: Floats
     """The origins of the trajectories (`columns`), (n, 5)."""
     parameters: Floats
@@ -81,12 +81,14 @@ class RowArrays(NamedTuple):
     """The rows that have succeeded in this episode, (n,)."""
 
 
-def make_arrays(n: int, n_actuators: int, n_actions: int, n_observations: int) -> RowArrays:
+def make_arrays(
+    n: int, n_links: int, n_actuators: int, n_actions: int, n_observations: int
+) -> RowArrays:
     """Return the arrays of n rows."""
     return RowArrays(
         states=np.zeros((n, ACTUATORS + n_actuators)),
         rotors=np.zeros((n, n_actuators, ROTOR)),
-        water=np.zeros((n, WATER_COLUMNS)),
+        water=np.zeros((n, n_links + 1, WATER_COLUMNS)),
         origins=np.zeros((n, c.ORIGIN_COLUMNS)),
         parameters=np.zeros((n, len(c.PARAMETERS))),
         past_actions=np.zeros((n, c.MAX_DELAY + 1, n_actions)),

@@ -98,7 +98,9 @@ def _place_row(task: TaskNumbers, rows: RowArrays, row: int, scratch: Floats) ->
     state[3], state[4] = n * goal[k] - m * goal[k + 3], n * goal[k + 1] - m * goal[k + 2]
     state[5], state[6] = n * goal[k + 2] + m * goal[k + 1], n * goal[k + 3] + m * goal[k]
     speed, heading = parameters[c.CURRENT_SPEED], parameters[c.CURRENT_HEADING]
-    rows.water[row, 0], rows.water[row, 1] = speed * math.cos(heading), speed * math.sin(heading)
+    for i in range(rows.water.shape[1]):
+        rows.water[row, i, 0] = speed * math.cos(heading)
+        rows.water[row, i, 1] = speed * math.sin(heading)
     for i in range(rows.rotors.shape[1]):
         is_lost = parameters[c.LOST_THRUSTER] >= 0.0 and int(parameters[c.LOST_THRUSTER]) == i
         rows.rotors[row, i, LOSS] = parameters[c.LOSS] if is_lost else 0.0
@@ -189,7 +191,7 @@ def _observe_row(task: TaskNumbers, rows: RowArrays, row: int, scratch: Floats) 
     write_axes(state, scratch[:9])
     situation = Situation(
         state, scratch[:9], goal, rows.origins[row], rows.past_actions[row, 0],
-        rows.water[row], scratch[9 + c.GOAL_COLUMNS :],
+        rows.water[row, rows.water.shape[1] - 1], scratch[9 + c.GOAL_COLUMNS :],
     )  # fmt: skip
     observe(task.channels, task.trajectory, situation, time, rows.observations[row])
 

@@ -61,7 +61,11 @@ class Rows:
         n_actuators, n_actions = self.numbers.mixing.shape
         self._nominal_vehicle = vehicle
         self._arrays = make_arrays(
-            n, n_actuators, n_actions, task.n_observations(n_actions, n_actuators)
+            n,
+            len(vehicle.bodies),
+            n_actuators,
+            n_actions,
+            task.n_observations(n_actions, n_actuators),
         )
         ranges = self.numbers.ranges[_FACTORS]
         self._is_varied = bool((ranges != 1.0).any())

@@ -20,6 +20,8 @@ def vehicle_of_row(vehicles: FreeVehicle, k: int) -> FreeVehicle:
         vehicles.sites,
         vehicles.limits,
         vehicles.gravity,
+        vehicles.world,
+        vehicles.actuator_links,
         vehicles.density,
     )
 

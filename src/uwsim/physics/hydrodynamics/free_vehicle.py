@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import mujoco
 import numpy as np
+import numpy.typing as npt
 
 from ...base.geometry import Array, rotation_from_quaternion
 from ...base.numerics.linear import product, rotate
@@ -22,12 +23,10 @@ def free_vehicle(model: mujoco.MjModel, root: int) -> FreeVehicle:
         root: the MuJoCo ID of the vehicle's base.
 
     Raises:
-        NoWater: the model has no hydrodynamics, stratified water, or the integrator RK4.
+        NoWater: the model has no hydrodynamics, or the integrator RK4.
     """
     if model.nuser_body != c.BODY_COLUMNS or model.body_user[0, c.MAGIC] != c.MAGIC_NUMBER:
         raise NoWater("The model has no hydrodynamics.")
-    if model.body_user[0, c.N_LEVELS] > 0.0:
-        raise NoWater("A free vehicle is simulated in water of one density; this is stratified.")
     if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
         raise NoWater("A free vehicle is simulated by the midpoint rule, not by RK4.")
     parts = [i for i in range(model.nbody) if model.body_rootid[i] == root]
@@ -49,6 +48,8 @@ def free_vehicle(model: mujoco.MjModel, root: int) -> FreeVehicle:
         limits=np.array(limits, dtype=np.float64).reshape(-1, 2),
         gravity=np.array(model.opt.gravity),
         density=float(model.body_user[0, c.DENSITY]),
+        world=np.array(model.body_user[0]),
+        actuator_links=_find_links(bodies, [int(model.site_bodyid[i]) for i in sites]),
     )
 
 
@@ -69,6 +70,11 @@ def actuators_in_water(model: mujoco.MjModel, root: int) -> list[int]:
         if model.actuator_user[i, c.ROLE] != c.NO_ROLE
         and model.body_rootid[model.site_bodyid[model.actuator_trnid[i, 0]]] == root
     ]
+
+
+def _find_links(links: Sequence[int], parts: Sequence[int]) -> npt.NDArray[np.int64]:
+    """Return the index of each part among the links in the water; -1 if it is none of them."""
+    return np.array([links.index(i) if i in links else -1 for i in parts], dtype=np.int64)
 
 
 _Pose = tuple[Array, Array]  # position (3,) [m] and rotation (3, 3)

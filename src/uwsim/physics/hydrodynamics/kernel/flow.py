@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from ....base.numerics.jit import njit
+from ....base.numerics.jit import njit, njit_borrowed
 from ....base.numerics.memory import (
     Floats,
     Ints64,
@@ -37,12 +39,44 @@ def site_velocity(m: int, d: int, o: Ints64, site: int, body: int) -> Three:
     water = view_doubles(
         read_int64(d + o[f.USERDATA]) + 8 * c.WATER_COLUMNS * body, c.WATER_COLUMNS
     )
+    table = view_doubles(read_int64(m + o[f.BODY_USER]) + 8 * c.BODY_COLUMNS * body, c.BODY_COLUMNS)
+    origin = view_doubles(read_int64(d + o[f.XPOS]) + 24 * body, 3)
+    body_axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
+    flow = SiteFlow(position, axes, com, twist, water, table, origin, body_axes)
+    return flow_velocity(flow)
+
+
+class SiteFlow(NamedTuple):
+    """The numbers of a site in water that moves and rotates."""
+
+    position: Floats
+    """The position of the site in W, (3,) [m]."""
+    axes: Floats
+    """The rotation ``world_from_site`` by rows, (9,)."""
+    com: Floats
+    """The centre of mass of the tree in W, (3,) [m]."""
+    twist: Floats
+    """The spatial velocity of the body as in MuJoCo, (6,)."""
+    water: Floats
+    """The row of the water at the body (`columns`), (12,)."""
+    table: Floats
+    """The row of the body (`columns`), (160,)."""
+    origin: Floats
+    """The position of the body in W, (3,) [m]."""
+    body_axes: Floats
+    """The rotation ``world_from_body`` by rows, (9,)."""
+
+
+@njit_borrowed
+def flow_velocity(flow: SiteFlow) -> Three:
+    """Return the velocity of a site through the water, which may rotate, in site axes [m/s]."""
+    position, axes, com, water = flow.position, flow.axes, flow.com, flow.water
     lever = (position[0] - com[0], position[1] - com[1], position[2] - com[2])
-    u, v, w, _, _, _ = relative_twist(axes, lever, twist, water)
+    u, v, w, _, _, _ = relative_twist(axes, lever, flow.twist, water)
     tx, ty, tz = water[c.OMEGA], water[c.OMEGA + 1], water[c.OMEGA + 2]
     if tx == 0.0 and ty == 0.0 and tz == 0.0:
         return u, v, w
-    x, y, z = _reference_lever(m, d, o, position, body)
+    x, y, z = _reference_lever(flow.table, flow.origin, flow.body_axes, position)
     cx, cy, cz = ty * z - tz * y, tz * x - tx * z, tx * y - ty * x
     return (
         u - (axes[0] * cx + axes[3] * cy + axes[6] * cz),
@@ -51,19 +85,16 @@ def site_velocity(m: int, d: int, o: Ints64, site: int, body: int) -> Three:
     )
 
 
-@njit
-def _reference_lever(m: int, d: int, o: Ints64, position: Floats, body: int) -> Three:
+@njit_borrowed
+def _reference_lever(table: Floats, origin: Floats, axes: Floats, position: Floats) -> Three:
     """Return the vector to a position from the point at which the water acts on a body [m].
 
     The position and the vector are in world axes.
     """
-    table = view_doubles(read_int64(m + o[f.BODY_USER]) + 8 * c.BODY_COLUMNS * body, c.BODY_COLUMNS)
     share = 1.0 if table[c.DISPLACED_MASS] > 0.0 else 0.0
     x = table[c.REFERENCE] + share * table[c.CENTRE]
     y = table[c.REFERENCE + 1] + share * table[c.CENTRE + 1]
     z = table[c.REFERENCE + 2] + share * table[c.CENTRE + 2]
-    origin = view_doubles(read_int64(d + o[f.XPOS]) + 24 * body, 3)
-    axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
     return (
         position[0] - origin[0] - (axes[0] * x + axes[1] * y + axes[2] * z),
         position[1] - origin[1] - (axes[3] * x + axes[4] * y + axes[5] * z),
@@ -83,6 +114,18 @@ def submersion(m: int, d: int, o: Ints64, site: int, body: int, radius: float) -
     height = site_height(d, o, site)
     surface = read_double(read_int64(m + o[f.BODY_USER]) + 8 * c.SURFACE)
     surface += read_double(read_int64(d + o[f.USERDATA]) + 8 * (c.WATER_COLUMNS * body + 6))
+    return submerged_share(surface, height, radius)
+
+
+@njit_borrowed
+def submerged_share(surface: float, height: float, radius: float) -> float:
+    """Return the submerged fraction of a part, 0..1.
+
+    Args:
+        surface: the height of the surface in W [m].
+        height: the height of the middle of the part [m].
+        radius: the radius of the part [m].
+    """
     return min(max(0.5 + 0.5 * (surface - height) / radius, 0.0), 1.0)
 
 

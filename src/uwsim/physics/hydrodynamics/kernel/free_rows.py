@@ -10,6 +10,7 @@ import numpy as np
 
 from ....base.numerics.jit import njit
 from ....base.numerics.memory import Floats
+from ..columns import WATER_COLUMNS
 from .free_step import (
     ACTUATORS,
     ROTOR,
@@ -38,12 +39,16 @@ def simulate_rows(
     """
     work, rotors = np.empty(WORK), np.zeros((len(vehicle.actuators), ROTOR))
     fill_rotors(vehicle, h, rotors)
+    waters = np.empty((len(vehicle.bodies) + 1, WATER_COLUMNS))
+    for i in range(len(waters)):
+        for k in range(WATER_COLUMNS):
+            waters[i, k] = water[k]
     for row in range(len(states)):
         state = states[row]
         for k in range(ACTUATORS):
             path[row, 0, k] = state[k]
         for i in range(commands.shape[1]):
-            step_one(vehicle, rotors, state, commands[row, i], water, h, work)
+            step_one(vehicle, rotors, state, commands[row, i], waters, h, work)
             for k in range(ACTUATORS):
                 path[row, i + 1, k] = state[k]
 

@@ -1,8 +1,8 @@
-r"""A step of one free vehicle in deep water, on plain arrays: no engine, no contacts.
+r"""A step of one free vehicle in water, on plain arrays: no engine, no contacts.
 
 A vehicle is one free body whose links do not move relative to each other, with any number of links
 in the water, thrusters and fins. A step is that of the engine with `kernel` and `free_bodies`: the
-same functions of `equations`, `inertias`, `thrusters`, `fins` and `midpoint` in the same order, for
+same functions of `links`, `flow`, `thrusters`, `fins` and `midpoint` in the same order, for
 one row of numbers in place of MuJoCo's memory. It takes well below a microsecond on one core, for
 fits and batches that need millions of steps. Nothing is allocated in a step.
 
@@ -10,38 +10,21 @@ The equations are in `kernel`, and the rule of the step in `midpoint`: the body 
 with its velocity, forces and the implicit midpoint rule for Coriolis terms give the new velocity,
 and the body moves by the other half.
 
-Not modelled: the surface, stratified water, contacts, moving joints, water that rotates.
+Not modelled: contacts, moving joints.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from ....base.numerics.jit import njit_borrowed
-from ....base.numerics.memory import Floats
+from ....base.numerics.memory import Floats, Ints64
 from .. import columns as c
 from . import fields as f
-from .equations import (
-    Six,
-    Three,
-    add_wrench,
-    bias_acceleration,
-    buoyancy,
-    coriolis,
-    diagonal_force,
-    diagonal_momentum,
-    drag_slopes,
-    drag_speeds,
-    full_force,
-    move_wrench,
-    read_six,
-    reference_point,
-    relative_twist,
-    subtract,
-    to_body,
-    to_world,
-)
+from .equations import Three, read_six, to_body, to_world
 from .fins import foil_force, servo_speed
+from .flow import SiteFlow, flow_velocity, submerged_share
 from .free_motion import (
     add_rigid_body,
     convert_rate,
@@ -50,14 +33,9 @@ from .free_motion import (
     rotate_attitude,
     rotate_velocity,
 )
-from .inertias import (
-    add_diagonal_inertia,
-    add_full_inertia,
-    diagonal_inertia,
-    is_significant,
-    subtract_added_mass,
-)
+from .links import LinkMotion, StepNumbers, add_link
 from .midpoint import NUMBERS, RATE, solve_rate
+from .stratification import density_at_height
 from .thrusters import inflow_loss, lag_share, static_thrust
 
 POSITION, QUATERNION, VELOCITY, ANGULAR_VELOCITY, ACTUATORS = 0, 3, 7, 10, 13
@@ -81,7 +59,8 @@ _COM = _PART_POSITION + 3
 _ORIGIN = _COM + 3
 _TWIST = _ORIGIN + 3
 _CRB = _TWIST + 6
-_B = _CRB + 10
+_SITE = _CRB + 10
+_B = _SITE + 12
 WORK = _B + NUMBERS
 """The length of the scratch memory of a step."""
 
@@ -104,6 +83,10 @@ class FreeVehicle(NamedTuple):
     """The minimum and maximum command of each thruster, (k, 2)."""
     gravity: Floats
     """The acceleration of gravity in W, (3,) [m/s2]."""
+    world: Floats
+    """The row of the world: the surface, and layers of stratified water (`columns`), (160,)."""
+    actuator_links: Ints64
+    """The index of the link that each actuator is on; -1: a link that is not in the water, (k,)."""
     density: float
     """The density of the water [kg/m3]."""
 
@@ -142,15 +125,16 @@ def step_one(
         rotors: the numbers of `fill_rotors`, and the losses of the thrusters, (k, `ROTOR`).
         state: the row of the state, (`ACTUATORS` + k,), which is changed.
         commands: the commands of the thrusters [1] and fins [rad], (k,).
-        water: the row of the water in W in the middle of the step (`columns`), (12,).
+        water: the water in W in the middle of the step at each link, then at the base (`columns`),
+            (n + 1, 12).
         h: the length of the step [s].
         work: scratch memory, (`WORK`,).
     """
     q, v = state[:7], state[VELOCITY:ACTUATORS]
-    b = work[_B:]
+    b, root_water = work[_B:], water[len(vehicle.bodies)]
     for i in range(3):
         q[i] += 0.5 * h * v[i]
-    rotate_velocity(v, q, water, 0.5 * h, 0.5 * h)
+    rotate_velocity(v, q, root_water, 0.5 * h, 0.5 * h)
     rotate_attitude(q, v, 0.5 * h)
     for i in range(_AXES):
         work[i] = 0.0
@@ -159,30 +143,41 @@ def step_one(
     for i in range(3):
         work[_ORIGIN + i] = q[i]
     lever = _place_body(vehicle.rigid_body, q, v, axes, com, twist)
-    crb = work[_CRB:_B]
+    crb = work[_CRB:_SITE]
     _rotate_rigid(vehicle.rigid_body, axes, crb)
     # the spatial acceleration of the free joint without accelerations, as MuJoCo's cdof_dot qvel
     bias_x = v[1] * twist[2] - v[2] * twist[1]
     bias_y = v[2] * twist[0] - v[0] * twist[2]
     bias_z = v[0] * twist[1] - v[1] * twist[0]
     bias = (0.0, 0.0, 0.0, bias_x, bias_y, bias_z)
-    bodies, poses, weight = vehicle.bodies, vehicle.poses, vehicle.gravity
-    for part in range(len(bodies)):
-        _place_part(poses[part], q, axes, work)
-        _add_part(bodies[part], weight, bias, water, h, work)
+    numbers = StepNumbers(vehicle.world, vehicle.gravity, 1.0, h, h, True)
+    for part in range(len(vehicle.bodies)):
+        _place_part(vehicle.poses[part], q, axes, work)
+        link = LinkMotion(
+            vehicle.bodies[part],
+            work[_PART_POSITION:_COM],
+            work[_PART_AXES:_PART_POSITION],
+            com,
+            twist,
+            water[part],
+        )
+        _, impulse = add_link(link, numbers, bias, work, 0, _SCRATCH, _DRAG)
+        for i in range(6):
+            work[f.MOMENTUM + i] += impulse[i]
     _add_actuators(vehicle, rotors, state, commands, water, h, work)
     fill_inertia(crb, work, f.FF, _DRAG, b)
-    fill_motion(twist, water, lever, work, 0, b)
+    fill_motion(twist, root_water, lever, work, 0, b)
     known_rate = (b[RATE + 3], b[RATE + 4], b[RATE + 5])  # the rate without accelerations
     gravity = (vehicle.gravity[0], vehicle.gravity[1], vehicle.gravity[2])
+    speed = (root_water[0], root_water[1], root_water[2])
     turn = (twist[0], twist[1], twist[2], twist[3], twist[4], twist[5])
-    add_rigid_body(crb, turn, bias, gravity, (water[0], water[1], water[2]), b)
+    add_rigid_body(crb, turn, bias, gravity, speed, b)
     solve_rate(b, h)
     convert_rate(lever, h, b)
     for i in range(3):
         b[RATE + 3 + i] -= known_rate[i]
     _apply_rate(lever, axes, h, b, v)
-    rotate_velocity(v, q, water, -0.5 * h, -h)
+    rotate_velocity(v, q, root_water, -0.5 * h, -h)
     for i in range(3):
         q[i] += 0.5 * h * v[i]
     rotate_attitude(q, v, 0.5 * h)
@@ -266,44 +261,6 @@ def _rotate_rigid(rigid_body: Floats, axes: Floats, crb: Floats) -> None:
 
 
 @njit_borrowed
-def _add_part(
-    table: Floats, gravity: Floats, bias: Six, water: Floats, h: float, work: Floats
-) -> None:
-    """Add the wrench, the momentum and the inertia of the water at a link, as `kernel` does."""
-    axes, com = work[_PART_AXES:_PART_POSITION], work[_COM:_ORIGIN]
-    position, twist = work[_PART_POSITION:_COM], work[_TWIST:_CRB]
-    _, lever = reference_point(table, position, axes, com)
-    nu = relative_twist(axes, lever, twist, water)
-    step = h * table[c.DRAG_IMPLICITNESS]
-    omega = to_body(axes, twist[0], twist[1], twist[2])
-    rate = bias_acceleration(axes, lever, bias, water, omega)
-    s = drag_speeds(table, nu)
-    slope = drag_slopes(table, nu, s)
-    if table[c.KIND] == c.FULL_MATRICES:
-        force, momentum = full_force(table, nu, rate, step, work, _SCRATCH)
-    else:
-        force = diagonal_force(table, nu, rate, s, slope, step)
-        momentum = diagonal_momentum(table, nu)
-    force = subtract(force, coriolis(nu, omega, momentum))
-    wrench = move_wrench(axes, lever, 1.0, force)
-    lift = buoyancy(table[c.DISPLACED_MASS], water, gravity, 1.0)
-    centre = (table[c.CENTRE], table[c.CENTRE + 1], table[c.CENTRE + 2])
-    add_wrench(axes, lever, centre, wrench, lift, work, f.WRENCH)
-    impulse = move_wrench(axes, lever, 1.0, momentum)
-    for i in range(6):
-        work[f.MOMENTUM + i] += impulse[i]
-    if table[c.KIND] == c.FULL_MATRICES:
-        add_full_inertia(axes, lever, 1.0, work, _SCRATCH, f.FF)
-        if subtract_added_mass(table, work, _SCRATCH):
-            add_full_inertia(axes, lever, 1.0, work, _SCRATCH, _DRAG)
-    else:
-        inertia, change = diagonal_inertia(table, slope, 1.0, step)
-        add_diagonal_inertia(axes, lever, inertia, work, f.FF)
-        if is_significant(inertia, change):
-            add_diagonal_inertia(axes, lever, change, work, _DRAG)
-
-
-@njit_borrowed
 def _add_actuators(
     vehicle: FreeVehicle,
     rotors: Floats,
@@ -318,21 +275,29 @@ def _add_actuators(
     They are summed in base axes about the centre of mass.
     """
     fx, fy, fz, tx, ty, tz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    actuators, sites, limits = vehicle.actuators, vehicle.sites, vehicle.limits
-    rigid_body, density = vehicle.rigid_body, vehicle.density
-    for i in range(len(actuators)):
-        table, pose, actuator_state = actuators[i], sites[i], state[ACTUATORS + i]
-        twisting = 0.0
+    limits, rigid_body, surface = vehicle.limits, vehicle.rigid_body, vehicle.world[c.SURFACE]
+    for i in range(len(vehicle.actuators)):
+        table, pose, link = vehicle.actuators[i], vehicle.sites[i], vehicle.actuator_links[i]
+        row = link if link >= 0 else len(vehicle.bodies)
+        height, level = _site_height(pose, work), surface + water[row, c.ELEVATION]
+        x, y, twisting = 0.0, 0.0, 0.0
         if table[c.ROLE] == c.PROPELLER:
             command = min(max(commands[i], limits[i, 0]), limits[i, 1])
-            rotor = actuator_state + rotors[i, HALF_STEP_SHARE] * (command - actuator_state)
-            health = 1.0 - rotors[i, LOSS]
-            x = _thrust(table, pose, health * static_thrust(table, rotor), density, water, work)
-            y, twisting = 0.0, table[c.TORQUE]
+            rotor = state[ACTUATORS + i]
+            rotor += rotors[i, HALF_STEP_SHARE] * (command - rotor)
+            x, twisting = (1.0 - rotors[i, LOSS]) * static_thrust(table, rotor), table[c.TORQUE]
+            if table[c.N_ADVANCE] > 0.0:
+                inflow = _site_velocity(vehicle, i, water, work)[0]
+                x *= 1.0 - inflow_loss(table, x, inflow, vehicle.density)
+            x *= submerged_share(level, height, table[c.RADIUS])
         else:
-            speed = servo_speed(table, actuator_state, commands[i], h, False)
-            u, v = _site_velocity(pose, water, work)
-            x, y = foil_force(table, actuator_state + 0.5 * h * speed, u, v, density)
+            fraction = submerged_share(level, height, 0.5 * math.sqrt(table[c.AREA]))
+            if fraction > 0.0:
+                speed = servo_speed(table, state[ACTUATORS + i], commands[i], h, False)
+                angle = state[ACTUATORS + i] + 0.5 * h * speed
+                u, v, _ = _site_velocity(vehicle, i, water, work)
+                density = vehicle.density * density_at_height(vehicle.world, height)
+                x, y = foil_force(table, angle, u, v, fraction * density)
         ex, ey, ez = (
             pose[3] * x + pose[4] * y,
             pose[6] * x + pose[7] * y,
@@ -351,28 +316,37 @@ def _add_actuators(
 
 
 @njit_borrowed
-def _thrust(
-    table: Floats, pose: Floats, thrust: float, density: float, water: Floats, work: Floats
-) -> float:
-    """Return the thrust of a thruster with a static thrust, less what the inflow takes [N]."""
-    if table[c.N_ADVANCE] > 0.0:
-        speed = _site_velocity(pose, water, work)[0]
-        thrust *= 1.0 - inflow_loss(table, thrust, speed, density)
-    return thrust
+def _site_height(pose: Floats, work: Floats) -> float:
+    """Return the height of a site in W [m]."""
+    k = _AXES + 6
+    rise = work[k] * pose[0] + work[k + 1] * pose[1] + work[k + 2] * pose[2]
+    return work[_ORIGIN + 2] + rise
 
 
 @njit_borrowed
-def _site_velocity(pose: Floats, water: Floats, work: Floats) -> tuple[float, float]:
-    """Return the velocity of a site through the water along its x and y axes [m/s]."""
-    _place_part(pose, work[_ORIGIN:_TWIST], work[_AXES:_PART_AXES], work)
-    axes, com = work[_PART_AXES:_PART_POSITION], work[_COM:_ORIGIN]
-    lever = (
-        work[_PART_POSITION] - com[0],
-        work[_PART_POSITION + 1] - com[1],
-        work[_PART_POSITION + 2] - com[2],
+def _site_velocity(vehicle: FreeVehicle, i: int, water: Floats, work: Floats) -> Three:
+    """Return the velocity of a site through the water in site axes [m/s]."""
+    link, row = vehicle.actuator_links[i], len(vehicle.bodies)
+    origin, body_axes = work[_ORIGIN:_TWIST], work[_AXES:_PART_AXES]
+    table = vehicle.world
+    if link >= 0:
+        row, table = link, vehicle.bodies[link]
+        _place_part(vehicle.poses[link], origin, body_axes, work)
+        for k in range(12):
+            work[_SITE + k] = work[_PART_AXES + k]
+        body_axes, origin = work[_SITE : _SITE + 9], work[_SITE + 9 : _SITE + 12]
+    _place_part(vehicle.sites[i], work[_ORIGIN:_TWIST], work[_AXES:_PART_AXES], work)
+    flow = SiteFlow(
+        work[_PART_POSITION:_COM],
+        work[_PART_AXES:_PART_POSITION],
+        work[_COM:_ORIGIN],
+        work[_TWIST:_CRB],
+        water[row],
+        table,
+        origin,
+        body_axes,
     )
-    flow = relative_twist(axes, lever, work[_TWIST:_CRB], water)
-    return flow[0], flow[1]
+    return flow_velocity(flow)
 
 
 @njit_borrowed

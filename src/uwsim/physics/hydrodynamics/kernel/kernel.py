@@ -46,37 +46,10 @@ from ....base.numerics.memory import (
 )
 from .. import columns as c
 from . import fields as f
-from .equations import (
-    add_wrench,
-    bias_acceleration,
-    buoyancy,
-    coriolis,
-    diagonal_force,
-    diagonal_momentum,
-    drag_slopes,
-    drag_speeds,
-    entered_share,
-    full_force,
-    move_wrench,
-    read_six,
-    reference_point,
-    relative_twist,
-    submerged_part,
-    subtract,
-    subtract_momentum_rate,
-    surface_plane,
-    to_body,
-)
+from .equations import read_six
 from .fins import add_fin
 from .free_bodies import conserve_energy
-from .inertias import (
-    add_diagonal_inertia,
-    add_full_inertia,
-    diagonal_inertia,
-    is_significant,
-    subtract_added_mass,
-)
-from .stratification import density_ratio
+from .links import LinkMotion, StepNumbers, add_link
 from .thrusters import add_thrust
 
 _WATER_MARK = 1e-300
@@ -259,12 +232,12 @@ def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_ma
     nbody = read_int64(m + o[f.NBODY])
     tree = view_int32s(read_int64(m + o[f.BODY_TREE]), nbody)
     root = view_int32s(read_int64(m + o[f.BODY_ROOT]), nbody)
-    surface = read_double(read_int64(m + o[f.BODY_USER]) + 8 * c.SURFACE)
+    timestep = read_double(m + o[f.TIMESTEP])
+    world = view_doubles(read_int64(m + o[f.BODY_USER]), c.BODY_COLUMNS)
     gravity = view_doubles(m + o[f.GRAVITY], 3)
     gravity_scale = 0.0 if (read_int32(m + o[f.DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
-    is_stratified = read_double(read_int64(m + o[f.BODY_USER]) + 8 * c.N_LEVELS) > 0.0
+    numbers = StepNumbers(world, gravity, gravity_scale, timestep, theta_h, with_mass)
     scratch = f.ROW * nbody
-    memory = work[scratch : scratch + f.SCRATCH]
     for body in range(1, nbody):
         table = view_doubles(
             read_int64(m + o[f.BODY_USER]) + 8 * c.BODY_COLUMNS * body, c.BODY_COLUMNS
@@ -273,59 +246,22 @@ def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_ma
             continue
         if read_int32(read_int64(d + o[f.TREE_AWAKE]) + 4 * tree[body]) == 0:
             continue
-        water = view_doubles(
-            read_int64(d + o[f.USERDATA]) + 8 * c.WATER_COLUMNS * body, c.WATER_COLUMNS
+        link = LinkMotion(
+            table,
+            view_doubles(read_int64(d + o[f.XPOS]) + 24 * body, 3),
+            view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9),
+            view_doubles(read_int64(d + o[f.COM]) + 24 * root[body], 3),
+            view_doubles(read_int64(d + o[f.CVEL]) + 48 * body, 6),
+            view_doubles(
+                read_int64(d + o[f.USERDATA]) + 8 * c.WATER_COLUMNS * body, c.WATER_COLUMNS
+            ),
         )
-        position = view_doubles(read_int64(d + o[f.XPOS]) + 24 * body, 3)
-        axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
-        com = view_doubles(read_int64(d + o[f.COM]) + 24 * root[body], 3)
-        twist = view_doubles(read_int64(d + o[f.CVEL]) + 48 * body, 6)
-        height, lever = reference_point(table, position, axes, com)
-        up, depth = surface_plane(table, axes, height, surface, water)
-        fraction, centre = submerged_part(table, up, depth, memory)
-        if fraction <= 0.0:
-            continue
-        nu = relative_twist(axes, lever, twist, water)
-        growth = 0.0
-        x, y, z = centre
-        if depth - (up[0] * x + up[1] * y + up[2] * z) < 2.0 * table[c.REACH]:
-            timestep = read_double(m + o[f.TIMESTEP])
-            growth = entered_share(table, up, depth, fraction, nu, timestep, memory) / timestep
-        if is_stratified:
-            centre_height = height + axes[6] * x + axes[7] * y + axes[8] * z
-            fraction *= density_ratio(m, o, centre_height)
-        base = f.ROW * body
-        work[base + f.IS_ACTIVE] = 1.0
-        step = theta_h * table[c.DRAG_IMPLICITNESS]
+        base, drag = f.ROW * body, scratch + f.SCRATCH + f.DRAG * tree[body]
         bias = read_six(work, base + f.BIAS)
-        omega = to_body(axes, twist[0], twist[1], twist[2])
-        rate = bias_acceleration(axes, lever, bias, water, omega)
-        s = drag_speeds(table, nu)
-        slope = drag_slopes(table, nu, s)
-        if table[c.KIND] == c.FULL_MATRICES:
-            force, momentum = full_force(table, nu, rate, step, work, scratch)
-        else:
-            force = diagonal_force(table, nu, rate, s, slope, step)
-            momentum = diagonal_momentum(table, nu)
-        force = subtract(force, coriolis(nu, omega, momentum))
-        if growth > 0.0:
-            force = subtract_momentum_rate(force, momentum, growth)
-        wrench = move_wrench(axes, lever, fraction, force)
-        buoyancy_force = buoyancy(fraction * table[c.DISPLACED_MASS], water, gravity, gravity_scale)
-        k = base + f.WRENCH
-        add_wrench(axes, lever, centre, wrench, buoyancy_force, work, k)
-        if not with_mass:
+        is_submerged, impulse = add_link(link, numbers, bias, work, base, scratch, drag)
+        if not is_submerged:
             continue
-        impulse = move_wrench(axes, lever, fraction, momentum)
-        for i in range(6):
-            work[base + f.MOMENTUM + i] = impulse[i]
-        k, drag = base + f.FF, scratch + f.SCRATCH + f.DRAG * tree[body]
-        if table[c.KIND] == c.FULL_MATRICES:
-            add_full_inertia(axes, lever, fraction, work, scratch, k)
-            if subtract_added_mass(table, work, scratch):
-                add_full_inertia(axes, lever, fraction, work, scratch, drag)
-        else:
-            inertia, change = diagonal_inertia(table, slope, fraction, step)
-            add_diagonal_inertia(axes, lever, inertia, work, k)
-            if is_significant(inertia, change):
-                add_diagonal_inertia(axes, lever, change, work, drag)
+        work[base + f.IS_ACTIVE] = 1.0
+        if with_mass:
+            for i in range(6):
+                work[base + f.MOMENTUM + i] = impulse[i]

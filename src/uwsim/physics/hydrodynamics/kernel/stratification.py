@@ -16,7 +16,17 @@ from . import fields as f
 @njit
 def density_ratio(m: int, o: Ints64, height: float) -> float:
     """Return the density at a height in the world [m], divided by that of the model's water."""
-    world = view_doubles(read_int64(m + o[f.BODY_USER]), BODY_COLUMNS)
+    return density_at_height(view_doubles(read_int64(m + o[f.BODY_USER]), BODY_COLUMNS), height)
+
+
+@njit_borrowed
+def density_at_height(world: Floats, height: float) -> float:
+    """Return the density at a height in W [m], divided by that of the model's water.
+
+    Args:
+        world: the row of the world's body.
+        height: the height [m].
+    """
     if world[N_LEVELS] == 0.0:
         return 1.0
     return 1.0 + density_excess(world, world[SURFACE] - height)
