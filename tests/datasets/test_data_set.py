@@ -239,3 +239,19 @@ def test_images_of_a_benchmark_have_its_levels(tmp_path: Path) -> None:
     make_dataset(request)
     for record in records_of(request.out):
         assert record["level"] == {"fog": pytest.approx(record["water"]["fog"])}
+
+
+def test_the_card_has_the_command_the_counts_and_the_models(folder: Path) -> None:
+    card = (folder / "README.md").read_text()
+    assert "--fog 0..0.3 --light 0.5..1.2" in card
+    assert "--vary 'object[blackbox].position.x=1.9..2.1'" in card
+    n_boxes = sum(
+        i["class"] == "blackbox" and i["box"] is not None
+        for record in records_of(folder)
+        for i in record["instances"]
+    )
+    assert f"| 1 | blackbox | {n_boxes} |" in card
+    assert "objects/blackbox" in card
+    for name in ("contact-sheet.png", "statistics.png"):
+        with Image.open(folder / name) as image:
+            assert image.width > 900

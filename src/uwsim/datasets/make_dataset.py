@@ -16,6 +16,7 @@ from ..assets.bundled import benchmark_file, bundled_files, scene_file
 from ..benchmark.reader import read_benchmark
 from ..benchmark.spec import BenchmarkSpec
 from ..errors import AssetNotFound, BadSetting, ErrorCollector
+from ..model.scene_model import SceneModel
 from ..physics.compile_scene import compile_scene
 from ..results.atomic_file import write_text
 from ..results.directory import lock_directory
@@ -27,6 +28,8 @@ from ..schema import Diagnostics
 from ..simulation import Simulation
 from ..version import __version__
 from .camera import make_camera
+from .card import write_card
+from .contact_sheet import write_contact_sheet
 from .formats import write_formats
 from .image_files import FOLDERS
 from .instances import find_instances
@@ -34,12 +37,13 @@ from .request import DatasetRequest
 from .scene_draw import DatasetSources, find_scene_seed
 from .shards import FOLDER, draw_indices, draw_numbers, is_finished, read_records
 from .splits import find_split
+from .statistics_plot import write_statistics
 from .workers import OnImage, render_all
 
 DESCRIPTION = "dataset.json"
 """The file that describes the data set; it is written first."""
 FILE_NAMES = re.compile(
-    r"(dataset\.json|labels\.jsonl|README\.md|contact-sheet\.jpg|data\.yaml|(train|val|test)\.txt"
+    r"(dataset\.json|labels\.jsonl|README\.md|contact-sheet\.png|statistics\.png|data\.yaml|(train|val|test)\.txt"
     r"|(images|depth|instances|classes)|records|coco|kitti|labels)"
 )
 """The names of the files and folders of a data set."""
@@ -109,7 +113,7 @@ def make_dataset(request: DatasetRequest, progress: Progress | None = None) -> D
             )
             with show as on_image:
                 render_all(request, sources, missing_draws, on_image, model)
-        return _finish(request, sources, table.classes, n_pending)
+        return _finish(request, sources, model, table.classes, n_pending)
 
 
 def _ignore() -> None:
@@ -117,7 +121,11 @@ def _ignore() -> None:
 
 
 def _finish(
-    request: DatasetRequest, sources: DatasetSources, classes: Sequence[str], n_rendered: int
+    request: DatasetRequest,
+    sources: DatasetSources,
+    model: SceneModel,
+    classes: Sequence[str],
+    n_rendered: int,
 ) -> Dataset:
     """Write the labels in all formats, the card and the contact sheet."""
     records = [
@@ -125,6 +133,9 @@ def _finish(
         for record in read_records(request)
     ]
     write_formats(request, records, classes)
+    write_contact_sheet(request.out, records, classes)
+    write_statistics(request.out, records)
+    write_card(request, records, classes, model)
     return Dataset(
         directory=request.out,
         n_images=len(records),
