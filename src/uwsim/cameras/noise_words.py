@@ -47,3 +47,17 @@ def fill_words(counter: np.uint64, words: Words) -> None:
         z = (z ^ (z >> np.uint64(30))) * MIX_1
         z = (z ^ (z >> np.uint64(27))) * MIX_2
         words[index] = z ^ (z >> np.uint64(31))
+
+
+@njit
+def draw_gaussians(
+    key: np.uint64, size: int, quantiles: npt.NDArray[np.float32]
+) -> npt.NDArray[np.float32]:
+    """Return independent values of N(0, 1) for the three channels of pixels, (size, 3)."""
+    mask, numbers = np.uint64(0xFFFF), np.empty(size, np.uint64)
+    fill_words(key, numbers)
+    values = np.empty((size, 3), np.float32)
+    for i in range(size):
+        for channel in range(3):
+            values[i, channel] = quantiles[(numbers[i] >> np.uint64(16 * channel)) & mask]
+    return values

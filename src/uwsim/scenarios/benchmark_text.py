@@ -34,6 +34,8 @@ class BenchmarkText:
     """The requested levels; None: the default."""
     image_depth: float = 1.0
     """The range of surfaces without a depth [m]."""
+    noise: float = 0.0
+    """The standard deviation of the noise of the recorded camera, as a fraction of white [1]."""
     has_recording: bool = False
     """True if images are recorded; False: rendered."""
     has_physical_water: bool = False
@@ -92,7 +94,9 @@ class BenchmarkText:
 
     def _write_updater(self) -> str:
         if self.has_recording:
-            truth = ""
+            truth, noise = "", ""
+            if self.noise > 0.0:
+                noise = f"\n      <u:noise>{self.noise!r}</u:noise>"
             if self.target is not None:
                 truth = (
                     f"\n      <u:truth> <u:file>{TRUTH_FILE}</u:file> "
@@ -103,7 +107,7 @@ class BenchmarkText:
       <bag>{RECORDING_FILE}</bag>
       <imageTopic>{IMAGE_TOPIC}</imageTopic> <infoTopic>{INFO_TOPIC}</infoTopic>
       <imageDepth>{self.image_depth:.4g}</imageDepth>
-      <u:depthTopic>{DEPTH_TOPIC}</u:depthTopic>{truth}
+      <u:depthTopic>{DEPTH_TOPIC}</u:depthTopic>{noise}{truth}
     </bagFogUpdater>"""
         if self.has_physical_water:
             return f"""    <u:waterUpdater u:quantity="scale">

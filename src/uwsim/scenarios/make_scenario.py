@@ -29,7 +29,13 @@ from .mission import Mission, cut_mission
 from .recorded_images import RecordedImages, find_images, write_recording
 from .request import ScenarioRequest
 from .scenario_files import check_benchmark_file, copy_inputs, find_inputs, write_provenance
-from .scenario_scene import TRAJECTORY_FILE, choose_camera, make_scenes, replace_water
+from .scenario_scene import (
+    TRAJECTORY_FILE,
+    choose_camera,
+    find_noise,
+    make_scenes,
+    replace_water,
+)
 
 BENCHMARK_FILE, RENDERED_BENCHMARK_FILE = "benchmark.xml", "benchmark-rendered.xml"
 SCENE_FILE, RENDERED_SCENE_FILE = "scene.xml", "scene-rendered.xml"
@@ -158,7 +164,8 @@ def _write_files(
     )
     _write_text(folder / SCENE_FILE, write_scene(scenes.recorded_scene))
     _write_text(folder / RENDERED_SCENE_FILE, write_scene(scenes.rendered_scene))
-    recorded_text = replace(text, has_recording=True, image_depth=image_depth)
+    noise = find_noise(base, vehicle, camera)
+    recorded_text = replace(text, has_recording=True, image_depth=image_depth, noise=noise)
     _write_text(folder / BENCHMARK_FILE, recorded_text.write())
     rendered_levels = None if text.has_physical_water else request.levels
     rendered_text = replace(text, scene=RENDERED_SCENE_FILE, levels=rendered_levels)

@@ -52,6 +52,13 @@ def choose_camera(scene: SceneSpec, vehicle: str, name: str | None) -> str:
     return names[0]
 
 
+def find_noise(scene: SceneSpec, vehicle: str, camera: str) -> float:
+    """Return the noise of a camera, as a fraction of white [1]; 0 for one with a response."""
+    spec = next(item for item in scene.vehicles if item.name == vehicle)
+    view = next(part for part in spec.parts_of(VirtualCameraSpec) if part.name == camera)
+    return min(view.std, 1.0) if view.response is None else 0.0
+
+
 def make_scenes(
     scene: SceneSpec, vehicle: str, camera: str | None, request: ScenarioRequest
 ) -> SceneFiles:

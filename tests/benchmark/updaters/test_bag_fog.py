@@ -480,6 +480,27 @@ def test_fog_has_the_range_of_each_pixel_of_a_depth_image(tmp_path: Path, encodi
     assert np.abs(screen.pixels(0) - exact).max() <= (0.51 if encoding == "32FC1" else 0.7)
 
 
+def test_images_in_fog_keep_the_noise_of_their_camera(tmp_path: Path) -> None:
+    depth, grey = np.tile(np.linspace(0.5, 8.0, 64), (80, 1)), 128.0
+    noise = np.random.default_rng(4).normal(0.0, 0.02 * 255.0, (80, 64, 3))
+    pixels = np.rint(grey + noise).astype(np.uint8)
+    write_depth_bag(tmp_path / "dive.mcap", pixels, depth, "32FC1")
+    stage = world(timestep=0.05)
+    updater = spec(tmp_path, bag="dive.mcap", depth_topic="/depth", noise=0.02).bind(stage)
+    screen = Screen(stage)
+    updater.ramp(0.3)
+    stage.advance(1)
+    updater.close()
+    columns, rows = np.meshgrid(np.arange(64), np.arange(80))
+    ranges = depth * np.sqrt(1.0 + ((columns - 2.0) / 4.0) ** 2 + ((rows - 1.5) / 4.0) ** 2)
+    seen = np.exp(-((0.3 * ranges) ** 2))[..., None]
+    residual = screen.pixels(0) - (grey * seen + 255.0 * np.array(COLOUR) * (1.0 - seen))
+    is_unclipped = np.array(COLOUR) > 0.2  # black fog clips noise
+    for part in (slice(0, 4), slice(8, 64)):  # near: the recorded noise; far: the added one
+        std = residual[:, part][..., is_unclipped].std()
+        assert std == pytest.approx(0.02 * 255.0, rel=0.06)
+
+
 def test_a_depth_image_of_another_size_ends_the_run(tmp_path: Path) -> None:
     write_depth_bag(tmp_path / "dive.mcap", sample_pixels(0), np.ones((3, 5)), "32FC1")
     stage = world(timestep=0.05)

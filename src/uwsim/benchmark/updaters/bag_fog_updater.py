@@ -9,6 +9,7 @@ r"""bagFogUpdater: fog over recorded images, to test an algorithm on real footag
       <imageDepth>2.5</imageDepth>
       <imagePub>/foggy/image</imagePub> <infoPub>/foggy/camera_info</infoPub>
       <u:depthTopic>/depth/image</u:depthTopic>
+      <u:noise>0.02</u:noise>
       <u:truth> <u:file>corners.csv</u:file> <u:topic>truth/corners</u:topic> </u:truth>
     </bagFogUpdater>
 
@@ -26,6 +27,10 @@ publication. Not modelled: attenuation, and fog that was already in the recorded
 With ``<u:depthTopic>``, the newest depth image before each image gives the range of each pixel: its
 depth times the length of the pixel's ray at a depth of 1 m, by the camera's parameters. Where the
 depth is 0 or NaN, ``imageDepth`` holds.
+
+A recorded image contains the noise of its camera, which fog would attenuate with the image.
+``<u:noise>`` is the standard deviation :math:`\sigma` of that noise as a fraction of white. With it
+each pixel receives the noise that is missing, N(0, :math:`\sigma^2 (1 - t^2)`), in each channel.
 
 ``<u:truth>`` names a CSV file with the ground truth of each image. Its column ``time`` is the time
 since the first image of the recording [s]; the other columns are the numbers of the truth. The
@@ -49,6 +54,7 @@ import numpy.typing as npt
 from ...base.geometry import Array
 from ...base.numerics.elementwise import exp
 from ...base.numerics.linear import dot
+from ...cameras.noise_words import draw_gaussians, frame_key, gaussian_quantiles
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
 from ...messages import CameraInfo, Float32MultiArray, Image, image, time_from_seconds
 from ...messages.bag_camera import DecodedImage, RecordedFrame, Recording, camera_info
@@ -86,6 +92,9 @@ class BagFogUpdaterSpec(FogSweepSpec):
     depth_topic: str = element(namespaced=True, default="")
     """The topic of depth images in the recording (sensor_msgs/Image, 32FC1 in m or 16UC1 in mm), by
     whose ranges the fog is added; empty: ``imageDepth`` holds for every pixel."""
+    noise: float = element(namespaced=True, default=0.0, minimum=0.0, maximum=1.0)
+    """The standard deviation of the noise of the recorded camera, as a fraction of white, which
+    images in fog keep [1]."""
     truth: RecordedTruthSpec | None = element(namespaced=True, default=None)
     """The ground truth of the images."""
     path: str = field(default="", compare=False, metadata={"path": True})
@@ -176,6 +185,9 @@ class BagFogUpdater(SceneUpdater):
         self._has_original_fog = "bag-fog" in stage.world.compatibility
         self._image_topic, self._info_topic = spec.topics
         self._density = spec.density(spec.first_value)  # [1/m]
+        self._rng = (
+            stage.world.stream(f"{spec.image_topic}/fog/noise") if spec.noise > 0.0 else None
+        )
         self._recording: Recording | None = None
         self._has_begun = False
         self._start_step = 0  # step at which the first image of the schedule was due
@@ -279,9 +291,10 @@ class BagFogUpdater(SceneUpdater):
                     f"{depth.shape[0]}."
                 )
             ranges = find_ranges(depth, frame.info, self._spec.image_depth)
-            return add_fog_by_range(
-                decoded_image.pixels, ranges, self._density, self._stage.fog_colour
-            )
+            return self._blend(decoded_image.pixels, ranges)
+        if self._rng is not None and not self._has_original_fog:
+            ranges = np.full(decoded_image.pixels.shape[:2], self._spec.image_depth)
+            return self._blend(decoded_image.pixels, ranges)
         thickness = (self._density * self._spec.image_depth) ** 2
         if not self._has_original_fog:
             return add_fog(decoded_image.pixels, math.exp(-thickness), self._stage.fog_colour)
@@ -290,6 +303,17 @@ class BagFogUpdater(SceneUpdater):
         r, g, b = ORIGINAL_COLOUR
         colour = (b, g, r) if decoded_image.is_blue_first else (r, g, b)
         return add_fog(decoded_image.pixels, math.exp(-ORIGINAL_FACTOR * thickness), colour)
+
+    def _blend(self, pixels: npt.NDArray[np.uint8], ranges: Array) -> npt.NDArray[np.uint8]:
+        """Return an image in the fog of the level, with the noise of its camera."""
+        contrast = find_contrast(ranges, self._density)
+        foggy_pixels = blend_fog(pixels, contrast, self._stage.fog_colour)
+        if self._rng is not None:
+            foggy_pixels += find_missing_noise(
+                foggy_pixels.shape, contrast, self._spec.noise, frame_key(self._rng)
+            )
+        levels: npt.NDArray[np.uint8] = np.rint(foggy_pixels).clip(0.0, 255.0).astype(np.uint8)
+        return levels
 
 
 def add_fog(
@@ -331,19 +355,33 @@ def find_ranges(depth: Array, info: Any, unknown_range: float) -> Array:
     return ranges
 
 
-def add_fog_by_range(
-    pixels: npt.NDArray[np.uint8],
-    ranges: Array,
-    density: float,
-    colour: tuple[float, float, float],
-) -> npt.NDArray[np.uint8]:
-    """Return pixels in fog of a density [1/m], for surfaces at ranges (h, w) [m], as `add_fog`."""
+def find_contrast(ranges: Array, density: float) -> Array:
+    """Return the contrast that fog of a density [1/m] leaves at ranges [m], (h, w) from 0 to 1."""
     optical_depth = np.minimum(density * ranges, 1e3)
-    contrast = exp(-(optical_depth * optical_depth))
+    return exp(-(optical_depth * optical_depth))
+
+
+def blend_fog(
+    pixels: npt.NDArray[np.uint8], contrast: Array, colour: tuple[float, float, float]
+) -> Array:
+    """Return the grey levels of pixels in fog, where a contrast (h, w) remains, as `add_fog`."""
     fog_levels = 255.0 * np.array(colour)
     if pixels.ndim == 2:
-        foggy_pixels = contrast * pixels + (1.0 - contrast) * dot(fog_levels, GREY)
-    else:
-        foggy_pixels = contrast[..., None] * pixels + (1.0 - contrast[..., None]) * fog_levels
-    levels: npt.NDArray[np.uint8] = np.rint(foggy_pixels).clip(0.0, 255.0).astype(np.uint8)
-    return levels
+        return contrast * pixels + (1.0 - contrast) * dot(fog_levels, GREY)
+    return contrast[..., None] * pixels + (1.0 - contrast[..., None]) * fog_levels
+
+
+def find_missing_noise(shape: tuple[int, ...], contrast: Array, std: float, key: int) -> Array:
+    """Return the noise that an image of a shape lacks in fog [grey levels].
+
+    Args:
+        shape: the shape of the image, (h, w, 3) or (h, w).
+        contrast: the fraction of the recorded image, and of its noise, that remains, (h, w).
+        std: the standard deviation of the recorded noise, as a fraction of white.
+        key: the random key of the image.
+    """
+    deviations = draw_gaussians(np.uint64(key), contrast.size, gaussian_quantiles())
+    levels = 255.0 * std * np.sqrt(1.0 - contrast * contrast)
+    if len(shape) == 2:
+        return levels * deviations[:, 0].reshape(shape)
+    return levels[..., None] * deviations.reshape(shape)
