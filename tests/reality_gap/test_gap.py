@@ -7,6 +7,7 @@ import json
 import math
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,11 +17,12 @@ from rich.console import Console
 from tests.logs.dataflash_files import FORMAT_OF_FORMATS, FORMATS, format_message, message
 from tests.reality_gap.fossen import Rov, rotation_of, write_log
 from uwsim.assets.bundled import scene_file
-from uwsim.errors import BadSetting, SimulationFailed
+from uwsim.errors import BadSetting
 from uwsim.logs import read_log, write_csv_log
 from uwsim.physics.compile_scene import compile_scene
 from uwsim.reality_gap import Gap, GapSettings, measure_gap
 from uwsim.reality_gap.report import WRITTEN_FILES, print_gap, write_gap
+from uwsim.reality_gap.sensor_residuals import SensorResidual, describe_offsets
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 
@@ -330,7 +332,75 @@ def test_a_late_clock_of_the_commands_is_named_and_no_coefficient(
     assert re.search(r"the clock of the commands is 0\.1\d+ s \(.*\) late", gap.verdict)
 
 
-def test_a_log_below_the_floor_of_the_scene_names_the_window(true_log: Path) -> None:
+def test_a_log_below_the_floor_of_the_scene_is_said_before_the_first_window(
+    true_log: Path,
+) -> None:
     scene = read_scene(scene_file("bluerov2-scene", ()))
-    with pytest.raises(SimulationFailed, match=r"(?s)The window at .* set origin in \[frames\]"):
+    with pytest.raises(BadSetting, match=r"The log is below '\w+' of the scene.*set origin"):
         measure(true_log, scene, has_attribution=False)
+
+
+def test_a_log_of_a_surface_craft_has_a_planar_gap(
+    true_log: Path, scene: SceneSpec, tmp_path: Path
+) -> None:
+    mapping = tmp_path / "map.toml"
+    names = [name for name in true_log.read_text().split("\n", 1)[0].split(",") if "thr" in name]
+    thrusters = [name.split(".")[1] for name in names]
+    mapping.write_text(
+        '[motion]\nposition = ["x", "y", 20]\nrpy = [0, 0, "heading"]\n'
+        'velocity = ["u", "v", 0]\nangular_velocity = [0, 0, "r"]\n'
+        f"[commands.thrusters]\ncolumns = {names}\nnames = {thrusters}\n"
+    )
+    header, *lines = true_log.read_text().splitlines()
+    rows = [line.split(",") for line in lines]
+    yaws = [2.0 * math.atan2(float(row[7]), float(row[4])) for row in rows]
+    path = tmp_path / "boat.csv"
+    table = [f"{line},{yaw}" for line, yaw in zip(lines, yaws, strict=True)]
+    path.write_text("\n".join([f"{header},heading", *table]) + "\n")
+    gap = measure_gap(
+        read_log(path, mapping=mapping),
+        compile_scene(scene),
+        settings=GapSettings(n_windows=4, horizons=(1.0,), has_attribution=False),
+    )
+    assert gap.is_planar
+    [error] = gap.horizons
+    assert [error.axes[index].rms.value for index in (2, 3, 4)] == pytest.approx(
+        [0, 0, 0], abs=1e-9
+    )
+    assert error.axes[0].rms.value > 0.0
+    assert any("surge, sway and yaw" in remark for remark in gap.remarks)
+    text = io.StringIO()
+    print_gap(gap, Console(file=text, width=120))
+    assert "surge [m]" in text.getvalue()
+    assert "heave" not in text.getvalue()
+
+
+def test_a_vehicle_of_the_mapping_that_the_scene_lacks_is_an_error_with_its_line(
+    true_log: Path, scene: SceneSpec, tmp_path: Path
+) -> None:
+    from uwsim.logs.csv_columns import derive_mapping
+
+    header = true_log.read_text().split("\n", 1)[0].split(",")
+    mapping = replace(derive_mapping(header), path="dive.toml", vehicle="bluerov", vehicle_line=1)
+    log = read_log(true_log, mapping=mapping)
+    with pytest.raises(BadSetting, match=r"dive\.toml:1: the scene has no vehicle 'bluerov'"):
+        measure_gap(log, compile_scene(scene))
+
+
+def test_a_constant_residual_of_a_range_is_another_origin() -> None:
+    def make(bias: float, rms: float) -> SensorResidual:
+        return SensorResidual(
+            sensor="range",
+            topic="/range",
+            quantity="range",
+            unit="m",
+            n_readings=100,
+            rms=rms,
+            bias=bias,
+            measured_deviation=0.2,
+        )
+
+    [remark] = describe_offsets([make(0.265, 0.276)])
+    assert "the log's depth lies 0.27 m above that of the scene" in remark
+    assert "Add 0.27 to z of origin" in remark or "Add 0.26 to z of origin" in remark
+    assert describe_offsets([make(0.1, 0.276), make(0.01, 0.01)]) == []

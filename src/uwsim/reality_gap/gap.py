@@ -53,8 +53,15 @@ class Gap:
     """The attribution to coefficients; None: not requested."""
     points_down: bool
     """True if z of the scene's frame L points down."""
+    is_planar: bool
+    """True if the log is planar: only surge, sway and yaw have an error."""
     remarks: tuple[str, ...]
     """The remarks about the log and the comparison."""
+
+    @property
+    def axis_indices(self) -> tuple[int, ...]:
+        """The indices of the degrees of freedom that the log has."""
+        return (0, 1, 5) if self.is_planar else (0, 1, 2, 3, 4, 5)
 
     @property
     def verdict(self) -> str:

@@ -29,6 +29,8 @@ class LogMotion:
         if twists is None:
             twists = estimate_twists(motion.times, motion.positions, motion.quaternions)
         is_whole = np.isfinite(np.hstack([motion.positions, twists])).all(axis=1)
+        self.is_planar = motion.is_planar
+        """True if depth, roll and pitch are constants."""
         self.n_samples = len(motion.times)
         """The number of samples of the log."""
         self.n_left_out = self.n_samples - int(is_whole.sum())

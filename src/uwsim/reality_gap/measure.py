@@ -29,10 +29,10 @@ from .errors import HorizonError, choose_main_horizon, summarize_horizon
 from .gap import Gap
 from .log_motion import LogMotion, read_motion, relative_motion
 from .residuals import StepResiduals, choose_steps, measure_residuals
-from .sensor_residuals import SensorComparison, SensorResidual
+from .sensor_residuals import SensorComparison, SensorResidual, describe_offsets
 from .settings import GapSettings
 from .vehicle_commands import VehicleCommands, shift_commands
-from .vehicle_run import VehicleRun, choose_vehicle
+from .vehicle_run import VehicleRun, check_ground, choose_vehicle
 from .windows import Windows, choose_windows
 
 N_CURVE = 80
@@ -108,11 +108,13 @@ class _Measurement:
             windows = choose_windows(
                 self._motion, commands.start, commands.end, settings.horizons, settings.n_windows
             )
+            check_ground(self._model, self._motion, windows.starts)
             self._remark_gaps(windows)
             horizons, curves, errors = self._compare(run, windows)
             tracks = self._draw_tracks(run, windows, horizons)
             residuals = self._measure_residuals(run)
         sensors = self._compare_sensors(windows)
+        self._remarks += describe_offsets(sensors)
         attribution = self._attribute(windows) if settings.has_attribution else None
         curve_times, curve_values = curves
         return Gap(
@@ -133,11 +135,17 @@ class _Measurement:
             sensors=sensors,
             attribution=attribution,
             points_down=_points_down(self._model),
+            is_planar=self._motion.is_planar,
             remarks=tuple(self._remarks),
         )
 
     def _remark_gaps(self, windows: Windows) -> None:
-        """State the samples and the windows that are left out."""
+        """State the samples and the windows that are left out, and a planar motion."""
+        if self._motion.is_planar:
+            self._remarks.append(
+                "the log has one depth, and no roll or pitch; the simulated vehicle keeps them, "
+                "and the gap is that of surge, sway and yaw."
+            )
         if self._motion.n_left_out:
             self._remarks.append(
                 f"motion: {self._motion.n_left_out} of {self._motion.n_samples} samples without a "

@@ -9,7 +9,7 @@ and are linear between samples.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,10 +18,22 @@ import numpy as np
 from ..base.geometry import Array
 from ..logs import SensorSeries
 from ..logs.message_readings import SENSOR_READERS, SensorReader
+from ..logs.units import GRAVITY
 from ..simulation import Simulation
 from .vehicle_run import VehicleRun
 from .windows import Windows
 
+DEPTH_SCALES = {
+    "depth": 1.0,
+    "range": -1.0,
+    "altitude": -1.0,
+    "pressure": 1.0 / (1000.0 * GRAVITY),
+}
+"""The depth of a vehicle by a reading, of fresh water for a pressure [m per unit]."""
+MIN_OFFSET = 0.05
+"""The least constant offset of a depth that is remarked [m]."""
+OFFSET_SPREADS = 2.0
+"""The least constant offset of a depth, in standard deviations of the residual."""
 MIN_READINGS = 8
 """The least number of compared readings of a sensor."""
 
@@ -184,3 +196,21 @@ def match_topics(
         if len(matching_topics) == 1:
             matches[name] = matching_topics[0]
     return matches
+
+
+def describe_offsets(residuals: Sequence[SensorResidual]) -> list[str]:
+    """Return a remark for each depth or height with a constant residual: another origin."""
+    remarks = []
+    for residual in residuals:
+        scale = DEPTH_SCALES.get(residual.quantity)
+        if scale is None:
+            continue
+        offset = scale * residual.bias  # positive: the simulated vehicle is too deep [m]
+        spread = abs(scale) * math.sqrt(max(0.0, residual.rms**2 - residual.bias**2))
+        if abs(offset) > max(MIN_OFFSET, OFFSET_SPREADS * spread):
+            side = "below" if offset > 0.0 else "above"
+            remarks.append(
+                f"{residual.sensor}: the log's depth lies {abs(offset):.2f} m {side} that of the "
+                f"scene, at all times. Add {-offset:.2f} to z of origin in [frames] of a mapping file."
+            )
+    return remarks

@@ -16,6 +16,8 @@ from ..simulation import Simulation
 from .log_motion import LogMotion
 from .vehicle_commands import VehicleCommands
 
+MAX_GROUND_DEPTH = 0.3
+"""The depth below a ground up to which a log counts as above it: its navigation drifts [m]."""
 FORMATS_WITHOUT_NAMES = ("csv", "bin", "tlog")
 """The formats of logs without the name of a vehicle."""
 
@@ -54,6 +56,7 @@ class VehicleRun:
         """The vehicle."""
         self._world_from_localized = simulation.world.model.scene.world_from_localized
         self._localized_from_world = self._world_from_localized.inverse()
+        self._is_planar = motion.is_planar
         simulation.advance(0.0)
         self._initial_state = simulation.state.copy()
 
@@ -98,7 +101,7 @@ class VehicleRun:
         for step, kind, time in sorted(events):
             n_steps = first_step + int(step) - simulation.step
             if n_steps > 0:
-                simulation.advance(n_steps * timestep)
+                self._advance(n_steps, start)
             if kind == 0:
                 self.commands.apply(self.vehicle, time)
             else:
@@ -108,9 +111,51 @@ class VehicleRun:
             positions=table[:, :3], quaternions=table[:, 3:7], twists=table[:, 7:]
         )
 
+    def _advance(self, n_steps: int, start: float) -> None:
+        """Simulate steps; a planar motion keeps the depth of the log, and no roll or pitch."""
+        timestep = self.simulation.timestep
+        if not self._is_planar:
+            self.simulation.advance(n_steps * timestep)
+            return
+        depth = float(self.motion.positions(np.array([start]))[0, 2])
+        for _ in range(n_steps):
+            self.simulation.advance(timestep)
+            state = self._read_state()
+            norm = math.hypot(state[3], state[6]) or 1.0
+            heading = np.array([state[3] / norm, 0.0, 0.0, state[6] / norm])
+            pose = Pose.from_quaternion(np.array([state[0], state[1], depth]), heading)
+            twist = state[7:] * np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
+            self.simulation.world.engine.place_vehicle(
+                self.vehicle.index, self._world_from_localized @ pose, twist
+            )
+
     def _read_state(self) -> Array:
         pose = self._localized_from_world @ self.vehicle.world_from_base
         return np.concatenate([pose.position, pose.quaternion, self.vehicle.velocity])
+
+
+def check_ground(model: SceneModel, motion: LogMotion, starts: Array) -> None:
+    """Raise BadSetting if the log begins a window below a ground of the scene.
+
+    Args:
+        model: the scene.
+        motion: the motion of the log.
+        starts: the times at which windows begin, (n,) [s].
+    """
+    positions = motion.positions(starts)
+    points = model.scene.world_from_localized.transform(positions)
+    for ground in model.grounds:
+        depths = [ground.depth(point[None]) for point in points]
+        is_below = [depth > MAX_GROUND_DEPTH for depth in depths]
+        if any(is_below):
+            index = is_below.index(True)
+            raise BadSetting(
+                f"The log is below {ground.name!r} of the scene: at {starts[index]:.2f} s, at "
+                f"z = {positions[index, 2]:.3g} m of L, by {depths[index]:.3g} m "
+                f"({sum(is_below)} of {len(starts)} windows). The log has another origin or place "
+                "than the scene. Set origin in [frames] of a mapping file, or use --open-water, "
+                "which leaves out floor and walls."
+            )
 
 
 def choose_vehicle(model: SceneModel, log: VehicleLog, name: str | None) -> int:

@@ -62,7 +62,7 @@ def render(gap: Gap, plots: Mapping[str, Path]) -> str:
         verdict=gap.verdict,
         cards=cards,
         horizons=[horizon_row(item) for item in gap.horizons],
-        tables=[(f"{item.horizon:g} s", axis_rows(item)) for item in gap.horizons],
+        tables=[(f"{item.horizon:g} s", axis_rows(gap, item)) for item in gap.horizons],
         main_horizon=f"{error.horizon:g} s",
         causes=_cause_rows(attribution),
         attribution=attribution,

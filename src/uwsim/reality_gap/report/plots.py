@@ -37,7 +37,7 @@ def draw_plots(gap: Gap, directory: Path) -> dict[str, Path]:
 def _draw_horizon(gap: Gap) -> Figure:
     with styled_figure(SIZE) as figure:
         for axes, (group, factor, unit) in zip(figure.subplots(1, 2), GROUPS, strict=True):
-            for index in range(*group.indices(6)):
+            for index in [i for i in range(*group.indices(6)) if i in gap.axis_indices]:
                 colour = PALETTE[index % 3]
                 axes.plot(gap.curve_times, factor * gap.curves[:, index], color=colour)
                 _draw_estimates(axes, gap, index, factor, colour)

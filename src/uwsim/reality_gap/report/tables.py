@@ -27,7 +27,7 @@ def format_number(value: float) -> str:
     return f"{value:.{digits}f}"
 
 
-def axis_rows(error: HorizonError) -> list[tuple[str, str, str, str]]:
+def axis_rows(gap: Gap, error: HorizonError) -> list[tuple[str, str, str, str]]:
     """Return axis and unit, RMS, bias, and displacement ratio of each degree of freedom."""
     return [
         (
@@ -36,7 +36,7 @@ def axis_rows(error: HorizonError) -> list[tuple[str, str, str, str]]:
             format_estimate(axis.bias, _factor(axis)),
             "–" if axis.ratio is None else f"{axis.ratio:.3f}",
         )
-        for axis in error.axes
+        for axis in (error.axes[index] for index in gap.axis_indices)
     ]
 
 

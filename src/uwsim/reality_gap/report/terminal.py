@@ -23,7 +23,7 @@ def print_gap(gap: Gap, console: Console) -> None:
         table = _make_table(
             f"after {error.horizon:g} s", ("axis", "RMS", "bias", "simulated / measured")
         )
-        for row in axis_rows(error):
+        for row in axis_rows(gap, error):
             table.add_row(*map(Text, row))
         console.print(table)
     if gap.attribution is not None and gap.attribution.causes:
