@@ -96,3 +96,36 @@ def test_a_recording_with_no_vehicle_is_an_error(tmp_path: Path) -> None:
     path.write_bytes(b"nothing")
     with pytest.raises(uwsim.UwsimError, match="cannot be read"):
         read_log(path)
+
+
+@pytest.mark.parametrize(
+    ("topics", "n_commands"),
+    [
+        (("left/autopilot/sticks",), 0),
+        (("left/autopilot/sticks", "left/autopilot/thrusters"), 8),
+        (("left/thrusters", "left/autopilot/thrusters"), 8),
+        (("left/joy",), 0),
+        (("left/u",), 6),  # the only topic, of no known name
+    ],
+)
+def test_the_commands_that_an_autopilot_applied_are_read_and_never_its_sticks(
+    topics: tuple[str, ...], n_commands: int, tmp_path: Path
+) -> None:
+    scene = tmp_path / "one.xml"
+    interface = INTERFACES.format(name="left").split("<u:ROSThrustersToPAT>")[0]
+    vehicle = VEHICLE.format(name="left", x=0)
+    scene.write_text(SCENE.format(vehicles=vehicle, interfaces=interface))
+    path = tmp_path / "one.mcap"
+    with uwsim.load(scene) as simulation, Recorder(simulation.bus, path) as recorder:
+        publishers = [simulation.bus.publisher(topic, Float64MultiArray) for topic in topics]
+        recorder.start(lambda: simulation.time)
+        for _ in range(4):
+            for topic, publish in zip(topics, publishers, strict=True):
+                size = 8 if "thrusters" in topic else 6
+                publish(Float64MultiArray(data=np.zeros(size)))
+            simulation.advance(0.1)
+    log = read_log(path)
+    widths = [part.values.shape[1] for part in log.commands]
+    assert widths == ([n_commands] if n_commands else [])
+    if "left/autopilot/thrusters" in topics:
+        assert log.commands[0].source == "/left/autopilot/thrusters"

@@ -211,6 +211,7 @@ def describe_offsets(residuals: Sequence[SensorResidual]) -> list[str]:
             side = "below" if offset > 0.0 else "above"
             remarks.append(
                 f"{residual.sensor}: the log's depth lies {abs(offset):.2f} m {side} that of the "
-                f"scene, at all times. Add {-offset:.2f} to z of origin in [frames] of a mapping file."
+                f"scene, at all times. Add {-offset:.2f} to z of origin in [frames] of a "
+                "mapping file."
             )
     return remarks
