@@ -203,7 +203,7 @@ class InstrumentStream(Device):
 
     @property
     def has_reader(self) -> bool:
-        """True unless it is known that nobody has read; only a pseudo-terminal shows this."""
+        """True if a program has read, or this is not known; only a pseudo-terminal shows it."""
         connection = self._connection
         return connection.has_reader if isinstance(connection, TerminalStream) else True
 
