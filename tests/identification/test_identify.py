@@ -84,9 +84,9 @@ def test_the_hydrodynamics_file_has_the_coefficients_and_where_they_come_from(
 
 
 def test_an_axis_that_was_never_excited_is_named_with_a_manoeuvre() -> None:
-    result = fit(
-        log_of(NO_YAW), free_names=("added_mass[surge]", "quadratic_damping[yaw]"), n_folds=0
-    )
+    names = ("added_mass[surge]", "quadratic_damping[yaw]")
+    settings = replace(QUICK, free_names=names, n_folds=0)
+    result = identify([log_of(NO_YAW)], bluerov2(), settings)
     assert [estimate.is_determined for estimate in result.uncertainty.estimates] == [True, False]
     assert any("quadratic_damping[yaw] is not determined" in text for text in list_warnings(result))
     assert any("yaw" in text and "zig-zag" in text for text in result.advice)

@@ -119,6 +119,7 @@ def describe_source(result: Identification) -> str:
     first = result.model.hydrodynamics
     return (
         f"Identified by uwsim {__version__} from {logs}. Free: {','.join(settings.free_names)}; "
+        f"{'planar; ' if result.model.is_planar else ''}"
         f"{len(result.windows)} windows of {settings.windows.length:g} s, loss {settings.loss}, "
         f"seed {settings.seed}. First guess and all other numbers: {first.name} ({first.source})"
     )

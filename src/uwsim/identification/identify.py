@@ -14,8 +14,18 @@ from ..errors import BadSetting
 from ..logs import VehicleLog
 from .excitation import AxisExcitation, give_advice, measure_excitation
 from .least_squares import Loss, Solution, linearise, minimise
-from .noise import MAX_CHANGE, first_noise, residual_noise
-from .parameters import Parameter, choose_parameters
+from .model_check import ModelCheck, check_model
+from .noise import (
+    MAX_CHANGE,
+    count_free_measurements,
+    first_noise,
+    measured_noise,
+    residual_noise,
+)
+from .noise_information import measure_noise_information
+from .parameters import Parameter, apply_values, choose_parameters
+from .planar import has_vertical_motion, hold_vertical
+from .readings import rank_readings
 from .residuals import N_CHANNELS, Fit, Residuals
 from .uncertainty import Uncertainty, compute_uncertainty
 from .validation import HorizonError, compare_horizons, simulate_errors, split_folds
@@ -54,6 +64,8 @@ class IdentifySettings:
     """The noise that is given, by group of channels."""
     seed: int = 0
     """The seed of the starts."""
+    is_planar: bool | None = None
+    """The planar mode for surface craft; None: for logs without depth and heave."""
 
     @property
     def n_pieces(self) -> int:
@@ -85,6 +97,8 @@ class Identification:
     """The excitation of each axis."""
     advice: tuple[str, ...]
     """The advice on further experiments."""
+    check: ModelCheck
+    """The check whether the model explains the logs."""
     horizons: tuple[HorizonError, ...]
     """The errors of windows that were held out; empty without a cross-validation."""
     first_errors: Array
@@ -134,8 +148,11 @@ def identify(
     Raises:
         BadSetting: a name of a coefficient, a log or a setting is invalid; with every error.
     """
+    _check_logs(logs)
+    model, remarks = _choose_mode(logs, model, settings)
     parameters = choose_parameters(settings.free_names, model)
     windows = cut_windows(logs, model, settings.windows)
+    windows = replace(windows, remarks=(*remarks, *windows.remarks))
     coarse_settings = replace(settings.windows, step=max(COARSE_STEP, settings.windows.step))
     coarse_residuals = Residuals(model, parameters, cut_windows(logs, model, coarse_settings))
     rows = np.linspace(0, len(windows) - 1, min(len(windows), MAX_START_WINDOWS)).round()
@@ -149,13 +166,24 @@ def identify(
     n_same = sum(solution.cost <= (1.0 + SAME_COST) * best_start.cost for solution in starts)
     solution, noise = _refine(fine_residuals, best_start.fit.values, noise, settings)
     counter.count()
-    problem = linearise(fine_residuals, solution.fit, 1.0 / noise, settings.loss)
-    uncertainty = compute_uncertainty(problem, parameters, solution.fit.values)
+    clean_noise = measured_noise(windows, settings.noise)
+    excitation = measure_excitation(windows, clean_noise)
+    uncertainty = _measure_uncertainty(fine_residuals, solution.fit, noise, settings, excitation)
     counter.count()
     first_errors = simulate_errors(fine_residuals, fine_residuals.start().values)
     held_out = _validate(coarse_residuals, fine_residuals, solution.fit, noise, settings, counter)
-    excitation = measure_excitation(windows, first_noise(fine_residuals, settings.noise))
+    horizons = compare_horizons(windows, first_errors, held_out) if settings.n_folds > 1 else ()
     rows = fine_residuals.compute(solution.fit, 1.0 / noise)
+    values = solution.fit.values
+    check = check_model(
+        model,
+        windows,
+        apply_values(model, parameters, values),
+        residual_noise=residual_noise(fine_residuals, rows, noise, {}),
+        measured_noise=clean_noise,
+        horizons=horizons,
+        readings=rank_readings(coarse_residuals, logs, values, clean_noise, settings.loss),
+    )
     return Identification(
         model=model,
         settings=settings,
@@ -167,10 +195,39 @@ def identify(
         n_same_minimum=n_same,
         excitation=excitation,
         advice=give_advice(excitation, uncertainty.estimates, uncertainty.weak_directions),
-        horizons=compare_horizons(windows, first_errors, held_out) if settings.n_folds > 1 else (),
+        check=check,
+        horizons=horizons,
         first_errors=first_errors,
         held_out_errors=held_out,
     )
+
+
+def _check_logs(logs: Sequence[VehicleLog]) -> None:
+    """Raise BadSetting for logs with the same content, which would count twice."""
+    names: dict[str, str] = {}
+    errors = []
+    for log in logs:
+        if log.sha256 and log.sha256 in names:
+            errors.append(
+                f"{log.path}: has the same content as {names[log.sha256]}; give each log once."
+            )
+        names.setdefault(log.sha256, log.path)
+    if errors:
+        raise BadSetting("\n".join(errors))
+
+
+def _choose_mode(
+    logs: Sequence[VehicleLog], model: VehicleModel, settings: IdentifySettings
+) -> tuple[VehicleModel, tuple[str, ...]]:
+    """Return the vehicle of the planar mode, or as it is, and remarks."""
+    is_planar = settings.is_planar
+    if is_planar is None:
+        is_planar = not has_vertical_motion(logs)
+    if not is_planar:
+        return model, ()
+    reason = "" if settings.is_planar else "The logs have neither depth nor heave. "
+    remark = f"{reason}Planar mode: heave, roll and pitch are held."
+    return hold_vertical(model), (remark,)
 
 
 def _search(
@@ -230,6 +287,26 @@ def _refine(
             break
         noise = new_noise
     return solution, noise
+
+
+def _measure_uncertainty(
+    residuals: Residuals,
+    fit: Fit,
+    noise: Array,
+    settings: IdentifySettings,
+    excitation: Sequence[AxisExcitation],
+) -> Uncertainty:
+    problem = linearise(residuals, fit, 1.0 / noise, settings.loss)
+    return compute_uncertainty(
+        problem,
+        residuals.parameters,
+        fit.values,
+        noise_information=measure_noise_information(
+            residuals, fit, problem, 1.0 / noise, settings.loss, seed=settings.seed
+        ),
+        n_measurements=count_free_measurements(residuals, settings.noise),
+        idle_axes=[row.axis for row in excitation if not row.is_excited],
+    )
 
 
 def _validate(

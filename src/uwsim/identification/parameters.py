@@ -64,6 +64,13 @@ GROUPS = (
 )
 """The names of the groups."""
 
+AXIS_GROUPS = ("added_mass", "linear_damping", "quadratic_damping", "inertia")
+"""The groups whose coefficients belong to an axis each."""
+HELD_GROUPS = ("buoyancy", "centre_of_buoyancy")
+"""The groups without effect in the planar mode."""
+HELD_KEYS = (("heave", "roll", "pitch"), ("z",))
+"""The axes of matrices, and the components of a current, that the planar mode holds."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
@@ -171,6 +178,11 @@ def _expand(text: str, model: VehicleModel) -> list[Parameter]:
     """Return the coefficients that a name stands for."""
     group, _, rest = text.partition("[")
     key = rest.removesuffix("]")
+    if model.is_planar and group in HELD_GROUPS:
+        raise BadSetting(
+            f"--free {text!r}: the planar mode holds heave, roll and pitch, so that {group} has no "
+            "effect."
+        )
     if group not in GROUPS or (rest and not rest.endswith("]")):
         raise BadSetting(f"--free {text!r}: unknown.{choices(group, GROUPS)}")
     if group == "drag":
@@ -182,6 +194,11 @@ def _expand(text: str, model: VehicleModel) -> list[Parameter]:
     keys, make = _find_keys(group, model)
     if key and key not in keys:
         raise BadSetting(f"--free {text!r}: unknown.{choices(key, keys)}")
+    if key and model.is_planar and key in HELD_KEYS[group == "current"]:
+        raise BadSetting(
+            f"--free {text!r}: the planar mode holds heave, roll and pitch; expected surge, sway "
+            "or yaw, or x or y of a current."
+        )
     if key:
         return [make(key)]
     if group in ("thrust", "time_constant"):
@@ -189,6 +206,10 @@ def _expand(text: str, model: VehicleModel) -> list[Parameter]:
             raise BadSetting(f"--free {text!r}: the vehicle {model.name!r} has no thruster.")
         return [make("")]
     parameters = [make(name) for name in keys or ("",)]
+    if model.is_planar:
+        parameters = [
+            entry for entry in parameters if entry.key not in HELD_KEYS[group == "current"]
+        ]
     if group in (*MATRICES, "inertia"):
         parameters = [parameter for parameter in parameters if parameter.first_guess > 0.0]
         if not parameters:

@@ -73,7 +73,7 @@ def compare_horizons(
     times = (windows.index + windows.fraction) * windows.settings.step
     errors = []
     for name, (unit, channels) in QUANTITIES.items():
-        columns = _measured_columns(windows, channels)
+        columns = measured_columns(windows, channels)
         for horizon in horizons:
             rows, samples = _find_samples(windows, times, horizon)
             pair = [
@@ -90,7 +90,7 @@ def compare_horizons(
     return tuple(errors)
 
 
-def _measured_columns(windows: Windows, channels: slice) -> list[int]:
+def measured_columns(windows: Windows, channels: slice) -> list[int]:
     """Return the channels of a quantity that the logs have."""
     motion = windows.samples
     has_column = np.asarray(np.isfinite(motion).any(axis=(0, 1))).tolist()

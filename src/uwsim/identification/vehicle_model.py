@@ -61,6 +61,8 @@ class VehicleModel:
     """The names of thrusters and fins, in the order of `numbers`."""
     world_from_localized: Pose
     """The pose of L in W."""
+    is_planar: bool = False
+    """The mode in which heave, roll and pitch are held (`planar`)."""
 
     @property
     def thrusters(self) -> tuple[str, ...]:

@@ -21,6 +21,7 @@ from ..base.numerics.linear import rotate_rows
 from ..errors import BadSetting, choices
 from ..logs import CommandSeries, MotionSeries, VehicleLog
 from ..logs.frames import multiply_quaternions, rotate_vectors
+from .planar import level_motion
 from .vehicle_model import VehicleModel
 
 N_MOTION = 13
@@ -228,7 +229,7 @@ def _convert_motion(motion: MotionSeries, model: VehicleModel) -> Array:
     )
     if motion.twists is not None:
         rows[:, 7:] = motion.twists
-    return rows
+    return level_motion(rows) if model.is_planar else rows
 
 
 def _rotate_known(rotation: Array, vectors: Array) -> Array:

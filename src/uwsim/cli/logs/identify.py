@@ -72,6 +72,14 @@ class IdentifyInput:
             help="Noise of the motion, as position=0.005,velocity=0.003 [estimated].",
         ),
     ] = ""
+    planar: Annotated[
+        bool | None,
+        option(
+            INPUT,
+            "--planar/--no-planar",
+            help="Surface craft: hold heave, roll and pitch [for logs without depth and heave].",
+        ),
+    ] = None
     example: Annotated[
         Path | None,
         option(
@@ -215,6 +223,7 @@ def make_settings(source: IdentifyInput, fit: FitOptions) -> IdentifySettings:
         n_folds=fit.folds,
         loss=losses[fit.loss],
         noise=parse_noise(source.noise),
+        is_planar=source.planar,
         seed=fit.seed,
     )
 

@@ -7,12 +7,15 @@ from typing import Any
 
 from ...version import __version__
 from ..identify import Identification
+from ..model_check import ModelCheck
 from ..residuals import CHANNELS
 from ..uncertainty import Estimate
 from .numbers import round_number
 
-FORMAT = 1
-"""The version of the format."""
+FORMAT = 2
+"""The version of the format; 2 has `model_check` and the reasons of doubt."""
+N_READINGS = 5
+"""The greatest number of other readings."""
 
 
 def json_text(result: Identification) -> str:
@@ -36,7 +39,9 @@ def json_text(result: Identification) -> str:
             "folds": settings.n_folds,
             "loss": settings.loss,
             "seed": settings.seed,
+            "planar": result.model.is_planar,
         },
+        "model_check": _describe_check(result.check),
         "coefficients": [_describe_estimate(estimate) for estimate in uncertainty.estimates],
         "correlations": [
             [round_number(round(value, 6)) for value in row]
@@ -86,6 +91,30 @@ def json_text(result: Identification) -> str:
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 
+def _describe_check(check: ModelCheck) -> dict[str, Any]:
+    return {
+        "warnings": list(check.warnings),
+        "measured_noise": {
+            channel: round_number(noise)
+            for channel, noise in zip(CHANNELS, check.measured_noise.tolist(), strict=True)
+        },
+        "residuals_in_measured_noise": {
+            channel: round_number(ratio)
+            for channel, ratio in zip(CHANNELS, check.noise_ratios.tolist(), strict=True)
+        },
+        "other_readings": [
+            {
+                "reading": reading.text,
+                "relative_error": round_number(reading.error),
+                "relative_error_fitted": None
+                if reading.fitted_error is None
+                else round_number(reading.fitted_error),
+            }
+            for reading in check.readings[:N_READINGS]
+        ],
+    }
+
+
 def _describe_estimate(estimate: Estimate) -> dict[str, Any]:
     return {
         "name": estimate.parameter.name,
@@ -96,5 +125,6 @@ def _describe_estimate(estimate: Estimate) -> dict[str, Any]:
         "standard_error": round_number(estimate.standard_error),
         "first_guess": round_number(estimate.parameter.first_guess),
         "is_determined": estimate.is_determined,
+        "doubt": estimate.doubt or None,
         "is_at_bound": estimate.is_at_bound,
     }

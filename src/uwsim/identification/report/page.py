@@ -42,6 +42,7 @@ def render(result: Identification, plots: Sequence[Path], file: str) -> str:
     return template("identification.html.j2").render(
         title=result.model.name,
         logs=[describe_log(log.path, log.sha256, log.start) for log in result.logs],
+        check=result.check.warnings,
         warnings=list_warnings(result),
         advice=result.advice,
         remarks=result.windows.remarks,
@@ -61,8 +62,16 @@ def render(result: Identification, plots: Sequence[Path], file: str) -> str:
             for i, row in enumerate(result.excitation)
         ],
         noise=[
-            (channel, f"{noise:.3g} {CHANNEL_UNITS[i // 3]}")
-            for i, (channel, noise) in enumerate(zip(CHANNELS, result.noise.tolist(), strict=True))
+            (
+                channel,
+                f"{noise:.3g} {CHANNEL_UNITS[i // 3]}, {ratio:.2g} times that of the measurements",
+            )
+            for i, (channel, noise, ratio) in enumerate(
+                zip(
+                    CHANNELS, result.noise.tolist(), result.check.noise_ratios.tolist(), strict=True
+                )
+            )
+            if ratio == ratio  # measured
         ],
         plots=[(CAPTIONS[path.stem], data_url(path.read_bytes(), "png")) for path in plots],
         settings=[

@@ -13,7 +13,7 @@ from ...analysis.plots import GREY, INK, PALETTE, save_pdf, save_plot, styled_fi
 from ...base.geometry import Array
 from ..identify import Identification
 from ..parameters import AXES
-from ..validation import QUANTITIES
+from ..validation import QUANTITIES, measured_columns
 
 FIRST_COLOUR, FITTED_COLOUR = PALETTE[1], PALETTE[0]
 """The colours of the first guess and of identified coefficients."""
@@ -78,9 +78,17 @@ def _draw_horizon(result: Identification) -> Figure:
     times = (windows.index + windows.fraction) * windows.settings.step
     has_sample = np.asarray(np.isfinite(windows.samples).any(axis=2))
     edges = np.linspace(0.0, windows.settings.length, N_BINS + 1)
-    with styled_figure((7.4, 4.2)) as figure:
-        panels = figure.subplots(2, 2, sharex=True)
-        for axes, (name, (_, channels)) in zip(panels.ravel(), QUANTITIES.items(), strict=True):
+    quantities = {
+        name: channels
+        for name, (_, channels) in QUANTITIES.items()
+        if measured_columns(windows, channels)
+    }
+    n_rows = -(-len(quantities) // 2)
+    with styled_figure((7.4, 2.1 * n_rows)) as figure:
+        panels = figure.subplots(n_rows, 2, sharex=True, squeeze=False)
+        for axes in panels.ravel()[len(quantities) :]:
+            axes.set_visible(False)
+        for axes, (name, channels) in zip(panels.ravel(), quantities.items(), strict=False):
             factor, label = SCALES[name]
             for errors, colour, text in (
                 (result.first_errors, FIRST_COLOUR, "first guess"),
@@ -91,7 +99,7 @@ def _draw_horizon(result: Identification) -> Figure:
                 axes.plot(middle, factor * curve, color=colour, label=text)
             axes.set_ylabel(label)
             axes.set_ylim(bottom=0.0)
-        for axes in panels[1]:
+        for axes in panels[-1]:
             axes.set_xlabel("time since the start of a window [s]")
         panels[0, 0].legend(loc="upper left")
     return figure
@@ -118,9 +126,14 @@ def _draw_window(result: Identification) -> Figure:
     times = (windows.times[row] + (windows.index + windows.fraction)[row] * windows.settings.step)[
         has_values
     ]
-    with styled_figure((7.4, 4.4)) as figure:
-        panels = figure.subplots(2, 3, sharex=True)
-        for axis, axes in enumerate(panels.ravel()):
+    axes_with_data = np.flatnonzero(np.isfinite(velocities).any(axis=0)).tolist()
+    n_columns = min(len(axes_with_data), 3)
+    n_rows = -(-len(axes_with_data) // n_columns)
+    with styled_figure((2.47 * n_columns, 0.6 + 1.9 * n_rows)) as figure:
+        panels = figure.subplots(n_rows, n_columns, sharex=True, squeeze=False)
+        for axes in panels.ravel()[len(axes_with_data) :]:
+            axes.set_visible(False)
+        for axis, axes in zip(axes_with_data, panels.ravel(), strict=False):
             factor = 1.0 if axis < 3 else 180.0 / np.pi
             unit = "m/s" if axis < 3 else "°/s"
             values = factor * velocities[has_values, axis]
@@ -130,7 +143,7 @@ def _draw_window(result: Identification) -> Figure:
             axes.plot(times, first_curve, color=FIRST_COLOUR, label="first guess")
             axes.plot(times, fitted_curve, color=FITTED_COLOUR, label="identified")
             axes.set_ylabel(f"{AXES[axis]}{' rate' if axis >= 3 else ''} [{unit}]")
-        for axes in panels[1]:
+        for axes in panels[-1]:
             axes.set_xlabel("time of the log [s]")
         _add_legend(figure, panels[0, 0])
     return figure

@@ -14,6 +14,12 @@ COEFFICIENT_HEADER = ("coefficient", "unit", "first guess", "identified", "95 % 
 """The header of the table of coefficients."""
 HORIZON_HEADER = ("error", "unit", "horizon", "windows", "before", "after")
 """The header of the table of errors."""
+DOUBTS = {
+    "idle": "the axis was never excited",
+    "noise": "noise makes most of the information",
+    "bound": "the interval reaches 0, or another bound of the range",
+}
+"""The reasons of doubt that one sentence gives for all coefficients."""
 
 
 def make_coefficient_rows(estimates: Sequence[Estimate]) -> list[Row]:
@@ -45,10 +51,21 @@ def make_horizon_rows(errors: Sequence[HorizonError]) -> list[Row]:
 
 def list_warnings(result: Identification) -> list[str]:
     """Return the sentences that a reader must not miss."""
+    estimates = result.uncertainty.estimates
     warnings = [direction.describe() for direction in result.uncertainty.weak_directions]
+    weak_names = {name for entry in result.uncertainty.weak_directions for name in entry.names}
+    warnings += [
+        f"{estimate.parameter.name} is not determined: its error is too large."
+        for estimate in estimates
+        if estimate.doubt == "error" and estimate.parameter.name not in weak_names
+    ]
+    for doubt, sentence in DOUBTS.items():
+        names = [entry.parameter.name for entry in estimates if entry.doubt == doubt]
+        if names:
+            warnings.append(f"Not determined, because {sentence}: {', '.join(names)}.")
     warnings += [
         f"{estimate.parameter.name} is at the bound of its range."
-        for estimate in result.uncertainty.estimates
+        for estimate in estimates
         if estimate.is_at_bound and estimate.value != 0.0
     ]
     if result.n_same_minimum * 2 < result.settings.n_starts:

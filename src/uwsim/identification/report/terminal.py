@@ -18,7 +18,9 @@ from .tables import (
 
 
 def print_tables(result: Identification, console: Console) -> None:
-    """Print the coefficients, the errors of held-out windows, warnings and advice."""
+    """Print warnings about the model, coefficients, errors of held-out windows and advice."""
+    for sentence in result.check.warnings:
+        console.print(f"warning: {sentence}", markup=False, highlight=False, soft_wrap=True)
     estimates = result.uncertainty.estimates
     console.print(_make_table(COEFFICIENT_HEADER, make_coefficient_rows(estimates)))
     if result.horizons:
