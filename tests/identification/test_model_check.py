@@ -88,7 +88,7 @@ def test_a_log_that_the_model_explains_has_no_warning() -> None:
 
 
 def test_the_noise_of_measurements_does_not_depend_on_the_model() -> None:
-    """Fast turns between samples count as noise of the angular velocity."""
+    """Allow for fast turns, which count as noise of the angular velocity."""
     windows = cut_windows([log_of()], bluerov2(), WindowSettings())
     expected = np.repeat([0.005, 0.0035, 0.003, 0.00175], 3)
     ratios = measured_noise(windows, {}) / expected
@@ -107,8 +107,10 @@ def test_a_vehicle_that_rises_and_one_at_the_surface_are_named() -> None:
     bodies = model.numbers.bodies.copy()
     bodies[:, c.DISPLACED_MASS] *= 1.2
     log, motion = log_of(), motion_of(log_of())
-    shallow = replace(log, motion=replace(motion, positions=motion.positions - [0.0, 0.0, 50.0]))
+    shallow_log = replace(
+        log, motion=replace(motion, positions=motion.positions - [0.0, 0.0, 50.0])
+    )
     light = replace(model, numbers=model.numbers._replace(bodies=bodies))
-    text = " ".join(identify([shallow], light, SETTINGS).check.warnings)
+    text = " ".join(identify([shallow_log], light, SETTINGS).check.warnings)
     assert "rises with 25 N, 19 % of its weight" in text
     assert "deep water" in text

@@ -57,7 +57,7 @@ def integrate(commands: np.ndarray, duration: float) -> np.ndarray:
     """Return x and y after some time by Runge-Kutta's method; z points up in W."""
     model = bluerov2()
     mass, inertia = 13.5, 0.37
-    added, linear, quadratic = (
+    added_mass, linear, quadratic = (
         np.array(rows) for rows in ((6.36, 7.12, 0.222), (13.7, 0.0, 0.0), (141.0, 217.0, 1.5))
     )
     force = np.zeros(3)
@@ -66,7 +66,7 @@ def integrate(commands: np.ndarray, duration: float) -> np.ndarray:
     ):
         x, y = site[[3, 6]] * static_thrust(row, command)
         force += x, y, site[0] * y - site[1] * x
-    inertias = np.array([mass, mass, inertia]) + added
+    inertias = np.array([mass, mass, inertia]) + added_mass
 
     def derive(state: np.ndarray) -> np.ndarray:
         nu, yaw = state[3:], state[2]

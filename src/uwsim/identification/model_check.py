@@ -91,13 +91,17 @@ def _find_measured(windows: Windows) -> Array:
 
 
 def _describe_readings(readings: Sequence[Reading]) -> list[str]:
-    best = readings[0] if readings else None
-    if best is None or best.fitted_error is None or best.fitted_error > MAX_ERROR_RATIO:
+    best_reading = readings[0] if readings else None
+    if (
+        best_reading is None
+        or best_reading.fitted_error is None
+        or best_reading.fitted_error > MAX_ERROR_RATIO
+    ):
         return []
-    gain = 100.0 * (1.0 - best.fitted_error)
+    gain = 100.0 * (1.0 - best_reading.fitted_error)
     return [
-        f"The error is {gain:.0f} % smaller with {best.text}. Check the mapping file and the "
-        "vehicle's file."
+        f"The error is {gain:.0f} % smaller with {best_reading.text}. Check the mapping file "
+        "and the vehicle's file."
     ]
 
 
@@ -144,13 +148,13 @@ def _describe_weight(model: VehicleModel, numbers: Numbers) -> list[str]:
     vehicle = numbers.vehicle
     gravity = float(np.sqrt((vehicle.gravity * vehicle.gravity).sum()))
     mass = float(vehicle.rigid_body[0])
-    surplus = mass - float(vehicle.bodies[:, c.DISPLACED_MASS].sum())
-    if abs(surplus) <= MAX_FREE_WEIGHT * mass:
+    free_mass = mass - float(vehicle.bodies[:, c.DISPLACED_MASS].sum())
+    if abs(free_mass) <= MAX_FREE_WEIGHT * mass:
         return []
-    verb = "sinks" if surplus > 0.0 else "rises"
-    share = 100.0 * abs(surplus) / mass
+    verb = "sinks" if free_mass > 0.0 else "rises"
+    share = 100.0 * abs(free_mass) / mass
     return [
-        f"{model.name} {verb} with {gravity * abs(surplus):.0f} N, {share:.0f} % of its weight. "
+        f"{model.name} {verb} with {gravity * abs(free_mass):.0f} N, {share:.0f} % of its weight. "
         "Check mass and volume; --planar fits a surface craft."
     ]
 

@@ -86,8 +86,8 @@ def level_attitudes(attitudes: Array) -> Array:
     """Return attitudes wxyz (n, 4) whose base has the same heading and a vertical z axis."""
     is_inverted = float(np.nanmedian(1.0 - 2.0 * (attitudes[:, 1] ** 2 + attitudes[:, 2] ** 2))) < 0
     flip = np.array([0.0, 1.0, 0.0, 0.0])  # the base's z axis points down in W
-    upright = multiply_quaternions(attitudes, flip) if is_inverted else attitudes
-    twists = upright * np.array([1.0, 0.0, 0.0, 1.0])
+    upright_attitudes = multiply_quaternions(attitudes, flip) if is_inverted else attitudes
+    twists = upright_attitudes * np.array([1.0, 0.0, 0.0, 1.0])
     size = np.sqrt((twists * twists).sum(axis=1, keepdims=True))
     twists = np.where(size > 1e-9, twists / np.maximum(size, 1e-9), np.array([1.0, 0.0, 0.0, 0.0]))
     return multiply_quaternions(twists, -flip) if is_inverted else twists

@@ -50,6 +50,7 @@ MAX_ERROR_RATIO = 0.7
 MIN_CHANGE = 0.01
 """The relative change of the error of a quantity that a reading changes."""
 DEGREE = np.pi / 180.0
+"""The number of radians in a degree."""
 
 Change = Callable[[MotionSeries], MotionSeries]
 """A function from a motion as it was read to the motion of another reading."""
@@ -89,17 +90,17 @@ def rank_readings(
     guess = residuals.start().values
     reference = measure_errors(residuals, windows, guess, noise)
     errors = {
-        text: _compare_errors(measure_errors(residuals, moved, guess, noise), reference)
-        for text, moved in readings.items()
+        text: _compare_errors(measure_errors(residuals, reading_windows, guess, noise), reference)
+        for text, reading_windows in readings.items()
     }
     finite_errors = {text: error for text, error in errors.items() if np.isfinite(error)}
     ranking = sorted(finite_errors, key=lambda text: finite_errors[text])
     fitted_error = None
     if ranking and errors[ranking[0]] < 1.0:
-        moved = readings[ranking[0]]
-        fitted_values = _fit_shortly(residuals, moved, noise, loss)
+        reading_windows = readings[ranking[0]]
+        fitted_values = _fit_shortly(residuals, reading_windows, noise, loss)
         fitted_error = _compare_errors(
-            measure_errors(residuals, moved, fitted_values, noise),
+            measure_errors(residuals, reading_windows, fitted_values, noise),
             measure_errors(residuals, windows, values, noise),
         )
     return tuple(
@@ -159,8 +160,8 @@ def _measure_changes(windows: Windows) -> Array:
     size = np.sqrt((turns[:, 1:] * turns[:, 1:]).sum(axis=1, keepdims=True))
     angles = 2.0 * np.arctan2(size, np.abs(turns[:, :1]))
     vectors = (turns[:, 1:] * angles / np.maximum(size, 1e-12)).reshape(*samples.shape[:2], 3)
-    others = [samples[:, :, columns] for columns in (slice(0, 3), slice(7, 13))]
-    position, twist = (part - part[:, :1] for part in others)
+    columns = [samples[:, :, columns] for columns in (slice(0, 3), slice(7, 13))]
+    position, twist = (part - part[:, :1] for part in columns)
     return np.nan_to_num(np.concatenate([position, vectors, twist], axis=2))
 
 

@@ -148,14 +148,14 @@ def simulate_free_log(
     excitation, noise = excitation or Excitation(), noise or LogNoise()
     times, commands = draw_commands(vehicle, excitation, seed)
     n_steps = round(excitation.duration / FREE_STEP)
-    held = np.searchsorted(times, FREE_STEP * (np.arange(n_steps) + 0.5), side="right") - 1
+    command_rows = np.searchsorted(times, FREE_STEP * (np.arange(n_steps) + 0.5), side="right") - 1
     pose = vehicle.world_from_localized
     states = np.zeros((1, ACTUATORS + len(vehicle.actuators)))
     states[0, :3] = pose.position
     states[0, 3:7] = quaternion_from_rotation(pose.rotation)
     path = np.empty((1, n_steps + 1, ACTUATORS))
     water = np.zeros(c.WATER_COLUMNS)
-    simulate_rows(vehicle.numbers, states, commands[held][None], water, FREE_STEP, path)
+    simulate_rows(vehicle.numbers, states, commands[command_rows][None], water, FREE_STEP, path)
     indices = np.rint(np.arange(int(excitation.duration * rate) + 1) / (rate * FREE_STEP))
     rows = path[0, np.minimum(indices.astype(np.int64), n_steps)]
     inverse = pose.inverse()

@@ -176,7 +176,7 @@ def compute_uncertainty(
         squares = quantiles * quantiles * window_squares + normal * normal * guess_squares
         half_widths = np.maximum(half_widths, np.sqrt(squares))
     errors = np.maximum(white_errors, window_errors)
-    added = np.zeros(p) if noise_information is None else noise_information
+    noise_parts = np.zeros(p) if noise_information is None else noise_information
     estimates = tuple(
         _make_estimate(parameter, value, error, half_width, reason)
         for parameter, value, error, half_width, reason in zip(
@@ -184,7 +184,7 @@ def compute_uncertainty(
             values.tolist(),
             errors.tolist(),
             half_widths.tolist(),
-            _find_doubts(parameters, added / np.maximum(total, 1e-300), idle_axes),
+            _find_doubts(parameters, noise_parts / np.maximum(total, 1e-300), idle_axes),
             strict=True,
         )
     )

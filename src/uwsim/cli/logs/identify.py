@@ -72,7 +72,7 @@ class IdentifyInput:
             help="Noise of the motion, as position=0.005,velocity=0.003 [estimated].",
         ),
     ] = ""
-    planar: Annotated[
+    planar_mode: Annotated[
         bool | None,
         option(
             INPUT,
@@ -223,7 +223,7 @@ def make_settings(source: IdentifyInput, fit: FitOptions) -> IdentifySettings:
         n_folds=fit.folds,
         loss=losses[fit.loss],
         noise=parse_noise(source.noise),
-        is_planar=source.planar,
+        is_planar=source.planar_mode,
         seed=fit.seed,
     )
 
