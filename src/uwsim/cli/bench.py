@@ -35,6 +35,7 @@ from .options.options import (
     WorkerOptions,
     make_request,
 )
+from .options.px4_option import Px4Option
 from .options.run_options import TrialRecordOptions
 from .output.console import standard_output
 from .output.progress import progress
@@ -92,6 +93,7 @@ class BenchOptions:
     processes: WorkerOptions
     client_options: ClientOptions
     ardupilot: ArduPilotOption = False
+    px4: Px4Option = False
     out: Annotated[
         Path | None,
         option(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
@@ -124,7 +126,8 @@ class BenchOptions:
                 mode=self.mode,
                 levels=levels,
                 client=self.client_options.client_spec(),
-                udp_address=ADDRESS if self.ardupilot else None,
+                udp_address=ADDRESS if self.ardupilot or self.px4 else None,
+                has_px4=self.px4,
             )
             return [replace(request, algorithm=name) for name in self.algorithm or (None,)]
         return []
@@ -145,9 +148,13 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     errors, level_errors, folders = ErrorCollector(), ErrorCollector(), []
     options.client_options.check(errors, options.processes.workers)
     with errors.collect():
-        if options.ardupilot and options.processes.workers not in ("0", "1"):
+        if options.ardupilot and options.px4:
+            raise BadSetting("--ardupilot and --px4 exclude each other.")
+        has_autopilot = options.ardupilot or options.px4
+        if has_autopilot and options.processes.workers not in ("0", "1"):
+            name = "--px4" if options.px4 else "--ardupilot"
             raise BadSetting(
-                f"--workers {options.processes.workers}: --ardupilot is one program; expected 1."
+                f"--workers {options.processes.workers}: {name} is one program; expected 1."
             )
     modes = {"resume": options.resume, "overwrite": options.overwrite}
     requests = options.requests(read_levels(options.level, level_errors), errors)

@@ -1,4 +1,4 @@
-"""The option ``--px4`` of ``uwsim run``."""
+"""The option ``--px4`` of ``uwsim run`` and ``uwsim bench``."""
 
 from __future__ import annotations
 

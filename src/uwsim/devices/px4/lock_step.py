@@ -56,6 +56,11 @@ class LockStepState(Record):
     n_skipped: int = 0
     """The number of received bytes that belong to no valid frame."""
 
+    @property
+    def has_events(self) -> bool:
+        """True if answers were late or invalid, or bytes were no message."""
+        return any((self.n_stale, self.n_invalid, self.n_skipped))
+
 
 class LockStep:
     """An exchange with PX4 over a stream of bytes.
@@ -77,8 +82,11 @@ class LockStep:
 
     def start(
         self, messages: Callable[[int], list[HilMessage]], period: int, time: float
-    ) -> ActuatorControls:
-        """Run PX4's clock until it answers, set `clock_offset` and return the first answer.
+    ) -> None:
+        """Run PX4's clock until it has answered all that was sent, and set `clock_offset`.
+
+        The answers are not used: the number of messages before the first one, and so their noise,
+        depends on the wall clock. The next HIL_SENSOR is one period later.
 
         Args:
             messages: the function that returns the messages at a time of PX4's clock [us].
@@ -89,7 +97,7 @@ class LockStep:
             ClientLost: PX4 does not connect or does not answer within the limit.
         """
         deadline = wall_time.monotonic() + self._limit
-        clock, has_answer, is_reported = 0, False, False
+        clock, has_answer, is_answered, is_reported = 0, False, False, False
         while not has_answer:
             if wall_time.monotonic() > deadline:
                 raise ClientLost(self._describe_missing_start())
@@ -107,11 +115,10 @@ class LockStep:
                 for answer in self._receive(rest):
                     self._check_lock_step(answer)
                     has_answer = True
-                    if answer.time_usec == clock:
-                        self.state.clock_offset = clock - round(1e6 * time)
-                        return answer
-        self.state.clock_offset = clock - round(1e6 * time)
-        return self._wait_for(clock)
+                    is_answered = answer.time_usec >= clock
+        if not is_answered:
+            self._wait_for(clock)
+        self.state.clock_offset = clock + period - round(1e6 * time)
 
     def exchange(self, messages: list[HilMessage], clock: int) -> ActuatorControls:
         """Send messages, the last of which is HIL_SENSOR, and return the answer.

@@ -318,13 +318,12 @@ class Px4(Device):
         state, lock_step = self.state, self._lock_step
         if lock_step is None or self._world.step < state.next_step:
             return
-        if state.is_started:
-            clock = state.lock_step.clock_offset + round(1e6 * time)
-            due = self._schedule.due(state.n_samples)
-            answer = lock_step.exchange(self._board.measure(clock, due, state.rng), clock)
-        else:
-            answer = lock_step.start(self._measure_at_start, self._schedule.period, time)
+        if not state.is_started:
+            lock_step.start(self._measure_at_start, self._schedule.period, time)
             state.is_started = True
+        clock = state.lock_step.clock_offset + round(1e6 * time)
+        due = self._schedule.due(state.n_samples)
+        answer = lock_step.exchange(self._board.measure(clock, due, state.rng), clock)
         state.n_samples += 1
         state.next_step = self._world.step + self._schedule.steps
         self._apply(answer)

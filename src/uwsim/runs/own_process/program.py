@@ -20,6 +20,8 @@ Program = Callable[[Simulation, Mapping[str, float | str]], Algorithm]
 """The constructor of a simulation's algorithm from the parameters that the user set."""
 ARDUPILOT, ARDUPILOT_PARTICIPATION = "ArduPilot", f"{LOCK_STEP}, ardupilot, grade (b)"
 """The name and the participation in a result of the autopilot of ``--ardupilot``."""
+PX4, PX4_PARTICIPATION = "PX4", f"{LOCK_STEP}, px4, grade (b)"
+"""The name and the participation in a result of the autopilot of ``--px4``."""
 OWN_PROCESS, SHARED_PROCESS = "own process, grade (b)", "in process"
 """The texts in a result for the participation of an algorithm class that is not bundled."""
 
@@ -85,7 +87,12 @@ def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
 
     None if only code of uwsim takes part.
     """
-    autopilot = () if plan.udp_address is None else ((ARDUPILOT, ARDUPILOT_PARTICIPATION),)
+    autopilot: tuple[tuple[str, str], ...] = ()
+    if plan.udp_address is not None:
+        is_px4 = plan.has_px4
+        autopilot = (
+            ((PX4, PX4_PARTICIPATION),) if is_px4 else ((ARDUPILOT, ARDUPILOT_PARTICIPATION),)
+        )
     if plan.algorithm.client is not None:
         return ((plan.algorithm.name, plan.algorithm.client.participation), *autopilot)
     if plan.algorithm.own_process:

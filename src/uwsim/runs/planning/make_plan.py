@@ -21,6 +21,7 @@ from ..substituted_files import warn_of_substituted_files
 from .ardupilot_scene import connect_ardupilot, exchange_timestep
 from .option_values import compatibility_of, levels_of, mode_of, number_or_text, pairs_of
 from .plan_request import PlanRequest
+from .px4_scene import connect_px4
 from .stored_pilot import PREFIX, with_stored_pilot
 
 if TYPE_CHECKING:
@@ -83,7 +84,11 @@ def make_plan(request: PlanRequest) -> Plan:
             algorithm_class = _algorithm(request, files)
     with errors.collect():
         if scene is not None and request.udp_address is not None:
-            scene = connect_ardupilot(scene, ends_on_restart=True)
+            scene = (
+                connect_px4(scene)
+                if request.has_px4
+                else connect_ardupilot(scene, ends_on_restart=True)
+            )
     with errors.collect():
         check_client(request, parameters)
     check_parameters(algorithm_class, parameters, errors)
@@ -118,6 +123,7 @@ def make_plan(request: PlanRequest) -> Plan:
         level_choices=levels,
         timestep=_timestep_of(spec, scene, request),
         udp_address=request.udp_address,
+        has_px4=request.has_px4,
         compatibility=quirks,
         data_path=tuple(request.data_path),
         inputs=inputs,
@@ -129,7 +135,9 @@ def _timestep_of(spec: BenchmarkSpec, scene: SceneSpec, request: PlanRequest) ->
     """Return the length of a step [s]: that of the file, or the one that suits ArduPilot."""
     if spec.timestep is not None:
         return spec.timestep
-    return TIMESTEP if request.udp_address is None else exchange_timestep(scene)
+    if request.udp_address is None or request.has_px4:
+        return TIMESTEP
+    return exchange_timestep(scene)
 
 
 def _add_program(plugins: tuple[Plugin, ...], algorithm: str) -> tuple[Plugin, ...]:

@@ -98,7 +98,9 @@ class Plan:
     timestep: float = TIMESTEP
     """The length of a physics step [s]."""
     udp_address: str | None = None
-    """The address of this computer at which ArduPilot steers the vehicles; None: it does not."""
+    """The address of this computer at which an autopilot connects; None: there is no autopilot."""
+    has_px4: bool = False
+    """True if the autopilot is PX4; otherwise it is ArduPilot."""
     data_path: tuple[Path, ...] = ()
     """The folders in which files are searched for (``--data-path``)."""
     is_blind: bool = False

@@ -45,7 +45,9 @@ class PlanRequest:
     client: ClientSpec | None = None
     """The external program that is the algorithm; None if the algorithm is a class."""
     udp_address: str | None = None
-    """The address of this computer at which ArduPilot steers the vehicles; None: it does not."""
+    """The address of this computer at which an autopilot connects; None: there is no autopilot."""
+    has_px4: bool = False
+    """True if the autopilot is PX4; otherwise it is ArduPilot."""
     in_process: bool = False
     """True if a third-party algorithm shares the simulation's process."""
     algorithm_is_from: str = ""

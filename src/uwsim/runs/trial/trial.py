@@ -32,6 +32,7 @@ from ...benchmark.updaters import (
     settling_time,
 )
 from ...devices.ardupilot import ArduPilotLink
+from ...devices.px4 import Px4
 from ...errors import NeverStarted, SimulationFailed
 from ...messages import String
 from ...simulation import Calls, Simulation
@@ -433,6 +434,10 @@ class _Execution:
 
 
 def _link_notes(simulation: Simulation) -> list[str]:
-    """Return a note for each connection to ArduPilot with lost, repeated or invalid packets."""
-    links = [part for part in simulation.world.devices if isinstance(part, ArduPilotLink)]
-    return [link.describe() for link in links if link.state.exchange.has_events]
+    """Return a note for each autopilot with lost, repeated or invalid packets."""
+    return [
+        part.describe()
+        for part in simulation.world.devices
+        if (isinstance(part, ArduPilotLink) and part.state.exchange.has_events)
+        or (isinstance(part, Px4) and part.state.lock_step.has_events)
+    ]
