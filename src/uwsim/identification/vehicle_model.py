@@ -28,6 +28,8 @@ from ..scene.vehicle import VehicleSpec
 
 DEPTH = 50.0
 """The depth of the vehicle in the scene that is made for it [m]."""
+SURFACE_DISTANCE = 1e6
+"""The height by which the surface is moved away from vehicles [m]."""
 ROBOTS = {
     "g500_physical": "girona500_arm5e.urdf",
     "uwsim_compat": "girona500_arm5e.urdf",
@@ -100,6 +102,17 @@ def make_scene(vehicle: str, robot: str | None = None) -> SceneSpec:
     )
 
 
+def remove_surface(numbers: FreeVehicle) -> FreeVehicle:
+    """Return a vehicle in deep water, whose height does not matter: a log may have any origin.
+
+    Stratified water keeps its surface, below which its layers count.
+    """
+    world = numbers.world.copy()
+    if world[c.N_LEVELS] == 0.0:
+        world[c.SURFACE] += SURFACE_DISTANCE
+    return numbers._replace(world=world)
+
+
 def open_vehicle(scene: SceneSpec, name: str | None = None) -> VehicleModel:
     """Return a vehicle of a scene.
 
@@ -122,7 +135,7 @@ def open_vehicle(scene: SceneSpec, name: str | None = None) -> VehicleModel:
     index = names[name]
     hydrodynamics, engine_model = model.dynamics[index], model.engine_model
     root = engine_model.body(vehicle_body(index, model.robots[index].root)).id
-    numbers = free_vehicle(engine_model, root)
+    numbers = remove_surface(free_vehicle(engine_model, root))
     link_ids = links_in_water(engine_model, root)
     links = [engine_model.body(i).name for i in link_ids]
     if not links:
