@@ -16,6 +16,10 @@ from ..residuals import StepResiduals
 from .tables import format_factor
 
 SIZE = (7.2, 2.9)
+BAR_HEIGHT = 0.56
+"""The height of a bar, in distances of bars."""
+REST = "#d0d0d0"
+"""The colour of the share that no coefficient explains."""
 GROUPS = ((slice(0, 3), 1.0, "m"), (slice(3, 6), math.degrees(1.0), "°"))
 """The axes, the factor and the unit of displacements and of rotations."""
 
@@ -57,12 +61,9 @@ def _mark_few_windows(axes: Axes, gap: Gap) -> None:
             axes.axvline(error.horizon, color=GREY, linewidth=0.7, linestyle=":", zorder=0)
             axes.annotate(
                 f"n = {error.n_blocks:.3g}, no interval",
-                (error.horizon, 0.02),
+                (error.horizon, 1.01),
                 xycoords=("data", "axes fraction"),
-                xytext=(-3, 0),
-                textcoords="offset points",
-                rotation=90,
-                ha="right",
+                ha="right" if error is gap.horizons[-1] else "center",
                 va="bottom",
                 fontsize=6.5,
                 color=INK,
@@ -171,13 +172,15 @@ def _draw_shares(gap: Gap) -> Figure:
             range(len(shares)),
             shares,
             left=starts,
-            color=[*colours, GREY],
-            height=0.56,
+            color=[*colours, REST],
+            height=BAR_HEIGHT,
         )
+        axes.spines["bottom"].set_bounds(0.0, 100.0)
         for row, (start, share, text) in enumerate(zip(starts, shares, texts, strict=True)):
             end = start + share
             if row + 1 < len(shares):
-                axes.plot([end, end], [row, row + 1], color=GREY, linewidth=0.7, zorder=0)
+                edges = [row + 0.5 * BAR_HEIGHT, row + 1.0 - 0.5 * BAR_HEIGHT]
+                axes.plot([end, end], edges, color=GREY, linewidth=0.7)
             is_left = start > 50.0
             axes.text(
                 start - 1.0 if is_left else end + 1.0,
