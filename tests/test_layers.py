@@ -91,7 +91,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     ),
     "envs": TASKS | ENGINES | {"checks", "runs", "viewer", "envs"},
     "manoeuvres": TASKS | ENGINES | {"analysis", "manoeuvres"},
-    "datasets": TASKS | ENGINES | {"runs", "analysis", "datasets"},
+    "datasets": (TASKS | ENGINES | {"runs", "analysis", "middleware", "viewer", "datasets"}),
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},

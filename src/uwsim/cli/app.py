@@ -102,6 +102,16 @@ COMMANDS: dict[str, Command] = {
             'uwsim envelope visibility-moving --over fog --until "status == lost" --algorithm orb',
         ),
     ),
+    "export": Command(
+        module="learning.export",
+        function="export",
+        summary="Export a recording as CSV, LeRobot or Minari.",
+        examples=(
+            "uwsim export dive.mcap --csv -o tables",
+            "uwsim export dive.mcap --lerobot --observation /girona500/odom "
+            "--action /dataNavigator -o episode",
+        ),
+    ),
     "gap": Command(
         module="logs.gap",
         function="gap",

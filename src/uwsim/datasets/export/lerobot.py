@@ -1,0 +1,252 @@
+"""LeRobot, version 3: Parquet files of steps, MP4 files of cameras, and ``meta``.
+
+.. code-block:: text
+
+    data/chunk-000/file-000.parquet            steps: observation.state, action, timestamp, ...
+    videos/observation.images.NAME/chunk-000/file-000.mp4
+    meta/info.json  meta/stats.json  meta/tasks.parquet
+    meta/episodes/chunk-000/file-000.parquet
+
+One recording is one episode. The files follow the layout of LeRobot's data sets of codebase version
+v3.0; they are read back with pyarrow, not with LeRobot, which needs torch.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import BadSetting, MissingExtra
+from ...messages import Image
+from ...messages.build import pixels_of
+from ...middleware.recording import BagReader
+from ...results.atomic_file import write_text
+from ...viewer.film.encoder import FfmpegEncoder, as_yuv
+from .csv_tables import check_folder, check_topics
+from .steps import Episode, read_episode
+
+CODEBASE_VERSION = "v3.0"
+CHUNK = "chunk-000/file-000"
+QUANTILES = (0.01, 0.1, 0.5, 0.9, 0.99)
+"""The quantiles in the statistics."""
+
+
+def check_extras() -> None:
+    """Raise MissingExtra unless pyarrow and ffmpeg are installed."""
+    for module in ("pyarrow", "imageio_ffmpeg"):
+        if importlib.util.find_spec(module) is None:
+            raise MissingExtra(
+                f"--lerobot needs {module}. Install it with: pip install 'uwsim[export]'."
+            )
+
+
+def export_lerobot(
+    recording: Path,
+    out: Path,
+    *,
+    observations: Sequence[str],
+    actions: Sequence[str],
+    cameras: Sequence[str] = (),
+    rate: float = 10.0,
+    task: str = "",
+) -> Episode:
+    """Write a data set of one episode.
+
+    Args:
+        recording: the recording.
+        out: the new folder.
+        observations: the topics of ``observation.state``.
+        actions: the topics of ``action``.
+        cameras: the topics of images, each of which becomes a film.
+        rate: the rate of steps [Hz].
+        task: the description of the task in words.
+
+    Raises:
+        MissingExtra: pyarrow or ffmpeg is not installed.
+        UwsimError: the recording, a topic or the folder is invalid.
+    """
+    check_extras()
+    check_folder(out)
+    episode = read_episode(recording, observations, actions, rate)
+    sizes = {}
+    for topic in cameras:
+        name = f"observation.images.{topic.strip('/').replace('/', '.')}"
+        path = out / "videos" / name / f"{CHUNK}.mp4"
+        sizes[name] = _write_film(recording, topic, episode, path)
+    _write_steps(out, episode)
+    _write_meta(out, episode, sizes, task or recording.stem)
+    return episode
+
+
+def _columns_of(episode: Episode) -> dict[str, npt.NDArray[Any]]:
+    n = len(episode.times)
+    return {
+        "timestamp": (np.arange(n) / episode.rate).astype(np.float32),
+        "frame_index": np.arange(n, dtype=np.int64),
+        "episode_index": np.zeros(n, np.int64),
+        "index": np.arange(n, dtype=np.int64),
+        "task_index": np.zeros(n, np.int64),
+    }
+
+
+def _write_steps(out: Path, episode: Episode) -> None:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    path = out / "data" / f"{CHUNK}.parquet"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    table = {
+        "observation.state": _vectors(episode.observations),
+        "action": _vectors(episode.actions),
+        **{name: pa.array(values) for name, values in _columns_of(episode).items()},
+    }
+    pq.write_table(pa.table(table), path)
+
+
+def _vectors(values: npt.NDArray[np.float32]) -> Any:
+    import pyarrow as pa
+
+    return pa.FixedSizeListArray.from_arrays(pa.array(values.reshape(-1)), values.shape[1])
+
+
+def _write_meta(out: Path, episode: Episode, sizes: dict[str, tuple[int, int]], task: str) -> None:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    n = len(episode.times)
+    folder = out / "meta" / "episodes" / "chunk-000"
+    folder.mkdir(parents=True)
+    row: dict[str, list[Any]] = {
+        "episode_index": [0],
+        "tasks": [[task]],
+        "length": [n],
+        "data/chunk_index": [0],
+        "data/file_index": [0],
+        "dataset_from_index": [0],
+        "dataset_to_index": [n],
+        "meta/episodes/chunk_index": [0],
+        "meta/episodes/file_index": [0],
+    }
+    for name in sizes:
+        row[f"videos/{name}/chunk_index"] = [0]
+        row[f"videos/{name}/file_index"] = [0]
+        row[f"videos/{name}/from_timestamp"] = [0.0]
+        row[f"videos/{name}/to_timestamp"] = [n / episode.rate]
+    stats = {
+        "observation.state": find_stats(episode.observations),
+        "action": find_stats(episode.actions),
+    }
+    for feature, values in stats.items():
+        row |= {f"stats/{feature}/{name}": [numbers] for name, numbers in values.items()}
+    pq.write_table(pa.table(row), folder / "file-000.parquet")
+    tasks = pa.table({"task_index": pa.array([0], pa.int64()), "task": [task]})
+    pq.write_table(tasks, out / "meta" / "tasks.parquet")
+    write_text(out / "meta" / "stats.json", json.dumps(stats, indent=1) + "\n")
+    write_text(out / "meta" / "info.json", json.dumps(_info(episode, sizes), indent=1) + "\n")
+
+
+def find_stats(values: npt.NDArray[np.float32]) -> dict[str, list[Any]]:
+    """Return minimum, maximum, mean, deviation, count and quantiles of columns, (n, k)."""
+    numbers = values.astype(np.float64)
+    stats: dict[str, list[Any]] = {
+        "min": numbers.min(axis=0).tolist(),
+        "max": numbers.max(axis=0).tolist(),
+        "mean": numbers.mean(axis=0).tolist(),
+        "std": numbers.std(axis=0).tolist(),
+        "count": [len(numbers)],
+    }
+    for share in QUANTILES:
+        stats[f"q{round(100 * share):02d}"] = np.quantile(numbers, share, axis=0).tolist()
+    return stats
+
+
+def _info(episode: Episode, sizes: dict[str, tuple[int, int]]) -> dict[str, Any]:
+    n = len(episode.times)
+    features: dict[str, Any] = {
+        "observation.state": _feature("float32", episode.observation_names),
+        "action": _feature("float32", episode.action_names),
+    }
+    for name, (width, height) in sizes.items():
+        features[name] = {
+            "dtype": "video",
+            "shape": [height, width, 3],
+            "names": ["height", "width", "channels"],
+            "info": {
+                "video.height": height,
+                "video.width": width,
+                "video.codec": "h264",
+                "video.pix_fmt": "yuv420p",
+                "video.is_depth_map": False,
+                "video.fps": episode.rate,
+                "video.channels": 3,
+                "has_audio": False,
+            },
+        }
+    for name, values in _columns_of(episode).items():
+        features[name] = {"dtype": str(values.dtype), "shape": [1], "names": None}
+    video_path = "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4"
+    return {
+        "codebase_version": CODEBASE_VERSION,
+        "robot_type": "uwsim",
+        "total_episodes": 1,
+        "total_frames": n,
+        "total_tasks": 1,
+        "chunks_size": 1000,
+        "data_files_size_in_mb": 100,
+        "video_files_size_in_mb": 200,
+        "fps": int(episode.rate) if episode.rate.is_integer() else episode.rate,
+        "splits": {"train": "0:1"},
+        "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
+        "video_path": video_path if sizes else None,
+        "features": features,
+    }
+
+
+def _feature(kind: str, names: Sequence[str]) -> dict[str, Any]:
+    return {"dtype": kind, "shape": [len(names)], "names": list(names)}
+
+
+def _write_film(recording: Path, topic: str, episode: Episode, path: Path) -> tuple[int, int]:
+    """Write the newest image at each step as a film; return its width and height [px]."""
+    encoder: FfmpegEncoder | None = None
+    size = (0, 0)
+    is_complete = False
+    try:
+        for pixels in _images_at_steps(recording, topic, episode):
+            if encoder is None:
+                size = (pixels.shape[1] // 2 * 2, pixels.shape[0] // 2 * 2)
+                encoder = FfmpegEncoder(path, size, episode.rate, ())
+            encoder.add(as_yuv(np.ascontiguousarray(pixels[: size[1], : size[0]])))
+        is_complete = True
+    finally:
+        if encoder is not None:
+            encoder.close(keeps_file=is_complete)
+    return size
+
+
+def _images_at_steps(
+    recording: Path, topic: str, episode: Episode
+) -> Iterator[npt.NDArray[np.uint8]]:
+    """Yield the newest image at each step, (h, w, 3); before the first, the first."""
+    with BagReader(recording) as reader:
+        check_topics(reader, [topic])
+        if reader.topics[topic] is not Image:
+            raise BadSetting(f"--camera {topic}: has no images of type sensor_msgs/Image.")
+        index, pixels = 0, None
+        for time, _, message in reader.messages([topic]):
+            while (
+                pixels is not None and index < len(episode.times) and (episode.times[index] < time)
+            ):
+                yield pixels
+                index += 1
+            image = pixels_of(message)
+            pixels = image if image.ndim == 3 else np.repeat(image[..., None], 3, axis=2)
+        while pixels is not None and index < len(episode.times):
+            yield pixels
+            index += 1
