@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 import uwsim
 from tests.support.fake_autopilot import FakeAutopilot
 from uwsim.assets.bundled import bundled_files
+from uwsim.devices.mavlink.link import Link
 from uwsim.devices.mavlink.mavlink import MavlinkDevice
 from uwsim.devices.mavlink.start_watch import StartWatch
 from uwsim.errors import UwsimError
@@ -348,3 +349,15 @@ def test_the_numbers_of_a_connection_are_described(pair: Pair) -> None:
     text = pair.device.describe()
     assert text.startswith("MAVLink of ")
     assert " messages received, " in text
+
+
+def test_an_autopilot_that_connects_again_gets_its_origin_again(
+    pair: Pair, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pair.simulation.advance(1.5)
+    assert len(pair.autopilot.find_messages("SET_GPS_GLOBAL_ORIGIN")) == 1
+    with monkeypatch.context() as context:
+        context.setattr(Link, "is_connected", property(lambda self: False))
+        pair.simulation.advance(0.1)
+    pair.simulation.advance(1.5)
+    assert len(pair.autopilot.find_messages("SET_GPS_GLOBAL_ORIGIN")) == 2

@@ -169,6 +169,8 @@ class MavlinkState(Record):
     """The time of the next message of the sticks [s]."""
     is_silent: bool = False
     """True if the autopilot has been silent for `LOST_TIME`."""
+    has_begun: bool = False
+    """True if the origin was sent over the present connection."""
     yaw: float = 0.0
     """The heading that the autopilot estimates [rad]."""
     roll: float = 0.0
@@ -262,6 +264,8 @@ class MavlinkDevice(Device):
         state.poll_time = time + POLL_PERIOD
         for message in self._link.receive():
             self._handle(message, time)
+        if not self._link.is_connected:
+            state.has_begun = False  # an autopilot that starts again has forgotten its origin
         self._report_invalid_bytes()
         if time >= state.heartbeat_time - 1e-9:
             state.heartbeat_time = time + HEARTBEAT_PERIOD
@@ -302,7 +306,8 @@ class MavlinkDevice(Device):
 
     def _handle_heartbeat(self, message: Message, time: float) -> None:
         status = self.state.status
-        is_first, was_silent = status.system == 0, self.state.is_silent
+        is_first = status.system == 0 or not self.state.has_begun
+        was_silent = self.state.is_silent
         is_changed = apply_heartbeat(status, message, time)
         self.state.is_silent = False
         if is_first or was_silent:
@@ -315,6 +320,7 @@ class MavlinkDevice(Device):
 
     def _begin(self) -> None:
         """Send what an autopilot needs once: its origin, and the messages that are read."""
+        self.state.has_begun = True
         target = self._commands.target
         for number in (LOCAL_POSITION_NUMBER, ATTITUDE_NUMBER):
             self._send_command(commands.set_message_interval(target, number, 0.1))

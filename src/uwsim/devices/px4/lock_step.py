@@ -80,9 +80,7 @@ class LockStep:
         self.state = state
         """The state of the exchange."""
 
-    def start(
-        self, messages: Callable[[int], list[HilMessage]], period: int, time: float
-    ) -> None:
+    def start(self, messages: Callable[[int], list[HilMessage]], period: int, time: float) -> None:
         """Run PX4's clock until it has answered all that was sent, and set `clock_offset`.
 
         The answers are not used: the number of messages before the first one, and so their noise,
