@@ -1,6 +1,6 @@
 """Draw recorded images in added fog, and the errors of a tracker on them, as in docs/scenarios.md.
 
-    python examples/scenario_figure.py scenario recorded.result rendered.result scenario.png
+    python examples/scenario_figure.py scenario recorded.result rendered.result scenario-fog.jpg
 
 The images are those that the tracker received, with the camera's noise. Curves end where the
 tracker lost the target.
@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
+from PIL import Image
 
 from uwsim.analysis.plots import PALETTE, save_plot, styled_figure
 from uwsim.benchmark.updaters.bag_fog_updater import (
@@ -29,6 +30,10 @@ TIMES, DENSITIES = (0.0, 6.0), (0.0, 0.4, 0.6, 0.8)
 """The times of the images [s] and the added fog [1/m]."""
 FOG_COLOUR, NOISE, UNKNOWN_RANGE = (0.0, 0.05, 0.3), 0.02, 2.5
 """The fog colour and the noise of the scene, and the range of pixels without a depth [m]."""
+
+
+JPEG_QUALITY = 88
+"""The JPEG quality of the figure, from 0 to 100."""
 
 
 def main() -> None:
@@ -56,8 +61,11 @@ def main() -> None:
             axes.set(title=title, xlabel="time [s]", ylim=(0.0, 5.0), xlim=(0.0, 24.0))
             if column == 0:
                 axes.set_ylabel("error [px]")
-                axes.legend(title="fog [m⁻¹]", loc="upper right", ncols=4, frameon=False)
-        save_plot(figure, arguments.out)
+                axes.legend(title="fog [m⁻¹]", loc="center right", ncols=2, frameon=False)
+        draft = save_plot(figure, arguments.out.with_suffix(".png"))
+    with Image.open(draft) as picture:
+        picture.convert("RGB").save(arguments.out, quality=JPEG_QUALITY)
+    draft.unlink()
 
 
 def draw_images(row_axes: list[Axes], pixels: np.ndarray, ranges: np.ndarray, key: int) -> None:
