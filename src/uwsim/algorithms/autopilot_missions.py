@@ -22,7 +22,6 @@ from ..messages import (
     Bool,
     Empty,
     Float64MultiArray,
-    MultiArrayLayout,
     Point,
     Pose,
     PoseStamped,
@@ -62,9 +61,9 @@ class AutopilotMission(abc.ABC):
     Nothing is commanded before the autopilot estimates its position, because it refuses modes and
     arming until then; without an estimate, they are tried after ``estimate_time``.
 
-    The pilot's sticks are sent at rest, because ArduSub's failsafe disarms a vehicle without a
-    pilot. Modes and arming are commanded again every second until the autopilot reports them; if it
-    disarms itself later, it is not armed again.
+    The pilot's sticks are sent at rest from the first report on, because ArduSub's failsafe disarms
+    a vehicle without a pilot. Modes and arming are commanded again every second until the autopilot
+    reports them; if it disarms itself later, it is not armed again.
     """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = MISSION_PARAMETERS
@@ -114,9 +113,11 @@ class AutopilotMission(abc.ABC):
         now = self._node.now
         if self._begin_time == math.inf:
             is_ready = self._has_estimate or now > float(self.parameters["estimate_time"])
-            if self._mode and is_ready and now - self._command_time >= RETRY_PERIOD:
+            if self._mode and now - self._command_time >= RETRY_PERIOD:
                 self._command_time = now
-                self._prepare(now)
+                self._publish_sticks(Float64MultiArray(data=np.zeros(N_STICKS)))
+                if is_ready:
+                    self._prepare(now)
             if self._begin_time == math.inf:
                 return
         time = now - self._begin_time - float(self.parameters["settling_time"])
@@ -129,8 +130,6 @@ class AutopilotMission(abc.ABC):
     def _prepare(self, now: float) -> None:
         """Command the next of: first mode, arming, mode; begin when all of them are reported."""
         mode, first_mode = (str(self.parameters[key]).upper() for key in ("mode", "first_mode"))
-        rest = MultiArrayLayout(dim=[], data_offset=0)
-        self._publish_sticks(Float64MultiArray(layout=rest, data=np.zeros(N_STICKS)))
         if not self._is_armed:
             if self._mode != first_mode:
                 self._publish_mode(String(data=first_mode))
