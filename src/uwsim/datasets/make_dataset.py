@@ -20,6 +20,7 @@ from ..model.scene_model import SceneModel
 from ..physics.compile_scene import compile_scene
 from ..results.atomic_file import write_text
 from ..results.directory import lock_directory
+from ..runs.foreign_code import announce_code, refuse_code
 from ..scene.reader import read_scene
 from ..scene.settings import apply_setting, xacro_arguments
 from ..scene.spec import SceneSpec
@@ -81,6 +82,10 @@ def make_dataset(request: DatasetRequest, progress: Progress | None = None) -> D
     """
     request.check()
     sources = read_sources(request)
+    if request.runs_code:
+        announce_code(sources.scene)
+    else:
+        refuse_code(sources.scene)
     model = compile_scene(
         sources.scene, seed=find_scene_seed(request, sources, 0), data_path=sources.folders
     )

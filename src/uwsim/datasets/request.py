@@ -105,6 +105,8 @@ class DatasetRequest:
     """The encoding of colour images, one of `ENCODINGS`."""
     data_path: tuple[Path, ...] = ()
     """The additional folders in which files are searched."""
+    runs_code: bool = True
+    """True if Python code that the scene names is run; False: such a scene is an error."""
     workers: int = 1
     """The number of processes."""
 
@@ -163,7 +165,7 @@ class DatasetRequest:
     def identity(self) -> dict[str, Any]:
         """The values that determine the bytes of an image, for JSON."""
         names = {field.name for field in fields(self)}
-        names -= {"out", "n_images", "formats", "workers", "data_path"}
+        names -= {"out", "n_images", "formats", "workers", "data_path", "runs_code"}
         return {name: _to_json(getattr(self, name)) for name in sorted(names)}
 
 

@@ -11,7 +11,7 @@ import typer
 from ...errors import BadSetting, ErrorCollector
 from ...runs.planning.option_values import pairs_of, split
 from ..options.help_texts import INPUT, OUTPUT, RUN, option
-from ..options.options import DataPathOption, SettingOptions
+from ..options.options import DataPathOption, NoCodeOption, SettingOptions
 from ..output.progress import progress
 
 if TYPE_CHECKING:
@@ -173,6 +173,7 @@ def dataset(
     out: Annotated[
         Path, option(OUTPUT, "--out", "-o", metavar="DIR", help="Directory of the data set.")
     ] = Path("dataset"),
+    no_code: NoCodeOption = False,
     data_path: DataPathOption = None,
 ) -> None:
     """Make labelled images of a scene: masks, boxes, depth, keypoints, poses and water.
@@ -239,6 +240,7 @@ def dataset(
         split=shares,
         encoding=labels.encoding,
         data_path=tuple(data_path or ()),
+        runs_code=not no_code,
         workers=workers,
     )
     with errors.collect():
