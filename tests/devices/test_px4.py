@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import math
+import socket
 import threading
+import time
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -201,6 +203,20 @@ def test_answers_to_earlier_sensors_are_not_used() -> None:
     state = device_of(simulation).state.lock_step
     assert state.n_stale > 100
     assert len(px4.sensors) > STEPS // 2
+
+
+@pytest.mark.skipif(not hasattr(socket, "TCP_QUICKACK"), reason="an option of Linux")
+def test_a_peer_that_collects_its_bytes_is_not_slowed() -> None:
+    """Acknowledge at once: a peer with Nagle's algorithm waits 40 ms for a late acknowledgement."""
+    port = find_free_port()
+    with open_simulation(port) as simulation:
+        px4 = Px4Stub(port, hold_depth, garbage=bytes(3000), has_delay=True)
+        simulation.advance()
+        start = time.monotonic()
+        for _ in range(200):
+            simulation.advance()
+        assert time.monotonic() - start < 100 * 0.03  # 0.04 s each without
+    px4.join()
 
 
 def test_bytes_that_are_no_frames_are_counted_and_change_nothing() -> None:

@@ -36,6 +36,7 @@ class Px4Stub:
         garbage: the bytes that it sends before each answer.
         is_armed: True to arm it.
         sends_stale: True to send the answer before this one as well.
+        has_delay: True to send garbage apart from answers, which TCP then delays.
     """
 
     def __init__(
@@ -48,11 +49,12 @@ class Px4Stub:
         garbage: bytes = b"",
         is_armed: bool = True,
         sends_stale: bool = False,
+        has_delay: bool = False,
     ) -> None:
         self._dialect = import_dialect()
         self._port, self._control, self._n_answers = port, control, n_answers
         self._flags, self._garbage, self._is_armed = flags, garbage, is_armed
-        self._sends_stale = sends_stale
+        self._sends_stale, self._has_delay = sends_stale, has_delay
         self.sensors: list[Any] = []
         """The HIL_SENSOR messages since the start."""
         self.other_messages: list[Any] = []
@@ -68,6 +70,7 @@ class Px4Stub:
 
     def _run(self) -> None:
         connection = connect(self._port)
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, not self._has_delay)
         link = self._dialect.MAVLink(None, srcSystem=1, srcComponent=1)
         connection.sendall(link.heartbeat_encode(0, 12, 0, 0, 0).pack(link))
         request = link.command_long_encode(0, 0, 511, 0, 115, 5000.0, 0, 0, 0, 0, 0)
@@ -98,6 +101,9 @@ class Px4Stub:
         controls = [*map(float, outputs), *[0.0] * (16 - len(outputs))]
         mode = 129 if self._is_armed else 1
         data = self._garbage
+        if self._has_delay:
+            connection.sendall(data)
+            data = b""
         for time in [sensor.time_usec - 4000] * self._sends_stale + [sensor.time_usec]:
             data += link.hil_actuator_controls_encode(time, controls, mode, self._flags).pack(link)
         connection.sendall(data)

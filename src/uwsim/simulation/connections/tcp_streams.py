@@ -20,6 +20,17 @@ KEEP_ALIVE = {"TCP_KEEPIDLE": 5, "TCP_KEEPINTVL": 2, "TCP_KEEPCNT": 3}
 that it can connect again: silence before a probe [s], the time between probes [s], their number."""
 
 
+def acknowledge(connection: socket.socket) -> None:
+    """Acknowledge what has arrived at once, where the system can.
+
+    A peer that collects its bytes (Nagle's algorithm) would wait 40 ms for the acknowledgement.
+    """
+    option = getattr(socket, "TCP_QUICKACK", None)  # of Linux, which resets it after a while
+    if option is not None:
+        with suppress(OSError):
+            connection.setsockopt(socket.IPPROTO_TCP, option, 1)
+
+
 class TcpStream:
     """A TCP connection that does not block; the base of client and server."""
 
@@ -42,6 +53,7 @@ class TcpStream:
             if timeout > 0.0:
                 select.select([connection], [], [], timeout)
             data = connection.recv(MAX_RECEIVE)
+            acknowledge(connection)
         except BlockingIOError:
             return b""
         except (OSError, ValueError):
