@@ -134,7 +134,7 @@ def exchange(
         "missing_steps": n_missing,
         "repeats": n_repeats,
         "received_again": state.n_duplicates,
-        "other_senders": state.n_others,
+        "other_senders": state.n_others + state.n_dropped,
     }
 
 

@@ -42,6 +42,8 @@ MAX_BYTES = 2048
 """The number of bytes that are read in a step; of more, the newest."""
 MAX_MESSAGES = 32
 """The number of messages that are read in a step; of more, the newest."""
+MAX_RECEIVED = 32768
+"""The number of bytes after which no more are received in a step; a TCP peer then has to wait."""
 MAX_PIECES = 16
 """The number of datagrams or pieces that are received in a step; others wait."""
 
@@ -214,11 +216,13 @@ class ActuatorStream(Device):
     def _read_frames(self, connection: ByteStream) -> Frames:
         """Return the messages in the newest bytes; each datagram ends a message."""
         pieces = [] if self._is_datagram else [self.state.rest]
+        n_received = 0
         for _ in range(MAX_PIECES):
-            piece = connection.receive()
+            piece = connection.receive() if n_received < MAX_RECEIVED else b""
             if not piece:
                 break
             pieces.append(piece)
+            n_received += len(piece)
             is_sentence = self._spec.format == "sentence"
             if self._is_datagram and is_sentence and not piece.endswith(b"\n"):
                 pieces.append(b"\n")
