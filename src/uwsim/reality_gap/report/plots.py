@@ -13,7 +13,7 @@ from ...analysis.plots import GREY, INK, MARKERS, PALETTE, save_pdf, save_plot, 
 from ..errors import AXES, choose_main_horizon
 from ..gap import Gap
 from ..residuals import StepResiduals
-from .tables import format_factor
+from .tables import format_factor, format_share
 
 SIZE = (7.2, 2.9)
 BAR_HEIGHT = 0.56
@@ -160,11 +160,15 @@ def _draw_shares(gap: Gap) -> Figure:
     causes = gap.attribution.causes
     names = [cause.coefficient.name for cause in causes]
     shares = [100.0 * cause.share for cause in causes]
-    texts = [f"{100.0 * cause.share:.3g} %, {format_factor(cause)}" for cause in causes]
+    texts = [f"{format_share(cause.share)}, {format_factor(cause)}" for cause in causes]
     evident = gap.attribution.evident_cause
     colours = [PALETTE[1] if cause is evident else PALETTE[0] for cause in causes]
     rest = 100.0 * gap.attribution.unexplained_share
-    names, shares, texts = [*names, "unexplained"], [*shares, rest], [*texts, f"{rest:.3g} %"]
+    names, shares, texts = (
+        [*names, "unexplained"],
+        [*shares, rest],
+        [*texts, format_share(rest / 100.0)],
+    )
     starts = [sum(shares[:row]) for row in range(len(shares))]
     with styled_figure((7.2, 0.95 + 0.34 * len(shares))) as figure:
         axes = figure.subplots()

@@ -58,7 +58,7 @@ def cause_row(cause: Cause) -> tuple[str, str, str, str, str]:
     return (
         cause.coefficient.name,
         format_factor(cause),
-        f"{100.0 * cause.share:.3g} %",
+        format_share(cause.share),
         confidence,
         cause.coefficient.advice,
     )
@@ -66,7 +66,12 @@ def cause_row(cause: Cause) -> tuple[str, str, str, str, str]:
 
 def rest_row(attribution: Attribution) -> tuple[str, str, str, str, str]:
     """Return the row of the share that no coefficient explains."""
-    return ("unexplained", "", f"{100.0 * attribution.unexplained_share:.3g} %", "", "")
+    return ("unexplained", "", format_share(attribution.unexplained_share), "", "")
+
+
+def format_share(share: float) -> str:
+    """Return a share in percent: ``33.8 %``."""
+    return "< 0.1 %" if share < 1e-3 else f"{100.0 * share:.3g} %"
 
 
 def format_factor(cause: Cause) -> str:
@@ -78,8 +83,8 @@ def format_factor(cause: Cause) -> str:
             else f" ({cause.low - 1.0:+.3f} to {cause.high - 1.0:+.3f})"
         )
         return f"{cause.shift:+.3f} s{limits}"
-    limits = "" if cause.low is None else f" ({cause.low:.3g} to {cause.high:.3g})"
-    return f"× {cause.factor:.3g}{limits}"
+    limits = "" if cause.low is None else f" ({cause.low:.4g} to {cause.high:.4g})"
+    return f"× {cause.factor:.4g}{limits}"
 
 
 def sensor_row(residual: SensorResidual) -> tuple[str, str, str, str, str]:
