@@ -32,7 +32,8 @@ from .variation import vary_vehicle, vehicle_of_row
 
 _MAX_SPEEDS = 1e3
 """The sum of speeds [m/s, rad/s] beyond which a simulation has diverged."""
-_SCRATCH = 9 + 2 * c.GOAL_COLUMNS
+SCRATCH = 9 + 2 * c.GOAL_COLUMNS
+"""The length of the scratch memory of a row."""
 
 
 @njit
@@ -62,7 +63,7 @@ def reset_rows(
         rows: the arrays of the rows.
         levels: the values of the parameters, NaN for those to draw, (n, p).
     """
-    scratch = np.empty(_SCRATCH)
+    scratch = np.empty(SCRATCH)
     for row in range(first, end):
         if not mask[row]:
             continue
@@ -137,19 +138,45 @@ def step_rows(
         rows: the arrays of the rows.
         actions: the actions from -1 to 1, (n, a).
     """
-    work, scratch = np.empty(WORK), np.empty(_SCRATCH)
+    work, scratch = np.empty(WORK), np.empty(SCRATCH)
     commands = np.empty(len(task.mixing))
     for row in range(first, end):
         if not mask[row]:
             continue
-        effort, change = _take_action(task, rows, row, actions[row], commands)
         vehicle = vehicle_of_row(vehicles, row if is_varied else 0)
-        state, rotors, water = rows.states[row], rows.rotors[row], rows.water[row]
-        for _ in range(task.substeps):
-            step_one(vehicle, rotors, state, commands, water, task.timestep, work)
-        rows.steps[row] += 1
-        _observe_row(task, rows, row, scratch)
-        _score_row(task, rows, row, effort, change, scratch[9 : 9 + c.GOAL_COLUMNS])
+        step_row(row, vehicle, task, rows, actions[row], commands, work, scratch)
+
+
+@njit_borrowed
+def step_row(
+    row: int,
+    vehicle: FreeVehicle,
+    task: TaskNumbers,
+    rows: RowArrays,
+    action: Floats,
+    commands: Floats,
+    work: Floats,
+    scratch: Floats,
+) -> None:
+    """Take a step of the environment with one row.
+
+    Args:
+        row: the index of the row.
+        vehicle: the numbers of its vehicle.
+        task: the numbers of the task.
+        rows: the arrays of the rows.
+        action: the action from -1 to 1, (a,).
+        commands: scratch memory for the commands, (k,).
+        work: scratch memory, (`free_step.WORK`,).
+        scratch: scratch memory, (`SCRATCH`,).
+    """
+    effort, change = _take_action(task, rows, row, action, commands)
+    state, rotors, water = rows.states[row], rows.rotors[row], rows.water[row]
+    for _ in range(task.substeps):
+        step_one(vehicle, rotors, state, commands, water, task.timestep, work)
+    rows.steps[row] += 1
+    _observe_row(task, rows, row, scratch)
+    _score_row(task, rows, row, effort, change, scratch[9 : 9 + c.GOAL_COLUMNS])
 
 
 @njit_borrowed

@@ -60,7 +60,7 @@ class Rows:
         self.numbers = task.bind(vehicle, mixing)
         n_actuators, n_actions = self.numbers.mixing.shape
         self._nominal_vehicle = vehicle
-        self._arrays = make_arrays(
+        self.arrays = make_arrays(
             n,
             len(vehicle.bodies),
             n_actuators,
@@ -68,8 +68,8 @@ class Rows:
             task.n_observations(n_actions, n_actuators),
         )
         ranges = self.numbers.ranges[_FACTORS]
-        self._is_varied = bool((ranges != 1.0).any())
-        self._vehicles = stack_vehicles(vehicle, n if self._is_varied else 1)
+        self.is_varied = bool((ranges != 1.0).any())
+        self.vehicles = stack_vehicles(vehicle, n if self.is_varied else 1)
         self._generators: list[np.random.Generator | None] = [None] * n
         self._all_rows = np.ones(n, np.bool_)
         self._no_levels = np.full((n, len(c.PARAMETERS)), np.nan)
@@ -80,47 +80,47 @@ class Rows:
     @property
     def observations(self) -> Singles:
         """The observations, (n, o)."""
-        return self._arrays.observations
+        return self.arrays.observations
 
     @property
     def rewards(self) -> Floats:
         """The rewards of the last step, (n,)."""
-        return self._arrays.rewards
+        return self.arrays.rewards
 
     @property
     def terminated(self) -> Flags:
         """The rows that left the region of the task, or succeeded if that ends it, (n,)."""
-        return self._arrays.terminated
+        return self.arrays.terminated
 
     @property
     def truncated(self) -> Flags:
         """The rows whose time is over, (n,)."""
-        return self._arrays.truncated
+        return self.arrays.truncated
 
     @property
     def successes(self) -> Flags:
         """The rows that have succeeded in this episode, (n,)."""
-        return self._arrays.successes
+        return self.arrays.successes
 
     @property
     def tallies(self) -> Floats:
         """The sums over the episodes (`columns`), (n, 7)."""
-        return self._arrays.tallies
+        return self.arrays.tallies
 
     @property
     def steps(self) -> npt.NDArray[np.int64]:
         """The numbers of steps since the episodes began, (n,)."""
-        return self._arrays.steps
+        return self.arrays.steps
 
     @property
     def states(self) -> Floats:
         """The states of the vehicles (`free_step`), (n, 13 + k)."""
-        return self._arrays.states
+        return self.arrays.states
 
     @property
     def levels(self) -> dict[str, Floats]:
         """The parameters of the episodes by name, (n,) each."""
-        return {name: self._arrays.parameters[:, i] for i, name in enumerate(c.PARAMETERS)}
+        return {name: self.arrays.parameters[:, i] for i, name in enumerate(c.PARAMETERS)}
 
     def seed(self, seeds: Sequence[int | None]) -> None:
         """Give some rows new random streams.
@@ -132,7 +132,7 @@ class Rows:
             if seed is not None:
                 generator = stream(seed, "envs/reset")
                 self._generators[row] = generator
-                self._arrays.streams[row] = stream_of(generator)
+                self.arrays.streams[row] = stream_of(generator)
 
     def reset(
         self,
@@ -163,20 +163,20 @@ class Rows:
             for name, level in levels.items():
                 values[:, parameter_index(name)] = level
             factors = values[:, _FACTORS]
-            if not self._is_varied and ((factors != 1.0) & ~np.isnan(factors)).any():
-                self._vehicles, self._is_varied = (
+            if not self.is_varied and ((factors != 1.0) & ~np.isnan(factors)).any():
+                self.vehicles, self.is_varied = (
                     stack_vehicles(self._nominal_vehicle, self.n),
                     True,
                 )
-        numbers, rows = self.numbers, self._arrays
+        numbers, rows = self.numbers, self.arrays
         self._share(
             lambda first, end: reset_rows(
                 first,
                 end,
                 row_mask,
                 self._nominal_vehicle,
-                self._vehicles,
-                self._is_varied,
+                self.vehicles,
+                self.is_varied,
                 numbers,
                 rows,
                 values,
@@ -196,10 +196,10 @@ class Rows:
         """
         self._actions[:] = actions
         row_mask = self._all_rows if mask is None else np.ascontiguousarray(mask, np.bool_)
-        numbers, rows = self.numbers, self._arrays
+        numbers, rows = self.numbers, self.arrays
         if self._pool is None:
             step_rows(
-                0, self.n, row_mask, self._vehicles, self._is_varied, numbers, rows, self._actions
+                0, self.n, row_mask, self.vehicles, self.is_varied, numbers, rows, self._actions
             )
         else:
             self._share(
@@ -207,8 +207,8 @@ class Rows:
                     first,
                     end,
                     row_mask,
-                    self._vehicles,
-                    self._is_varied,
+                    self.vehicles,
+                    self.is_varied,
                     numbers,
                     rows,
                     self._actions,
