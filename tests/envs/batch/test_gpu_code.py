@@ -21,7 +21,7 @@ ARCHITECTURE = (9, 0)
 
 @pytest.fixture
 def cuda(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Return numba-cuda with a device that only has an architecture."""
+    """The module of numba-cuda with a device that only has an architecture."""
     if not HAS_COMPILER:
         pytest.skip("numba-cuda with NVIDIA's compiler (260 MB) is not installed: uwsim[gpu]")
     from numba import cuda
