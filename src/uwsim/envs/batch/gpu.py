@@ -11,6 +11,7 @@ results are arrays of the GPU, which other libraries read without a copy by
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable
 from typing import Any
 
@@ -60,7 +61,7 @@ class GpuRows:
 
     def __init__(self, rows: Rows) -> None:
         try:
-            from numba import cuda
+            cuda: Any = importlib.import_module("numba.cuda")  # it has no types
         except ImportError as error:
             raise BadSetting("numba-cuda is not installed; install uwsim[gpu].") from error
         if not cuda.is_available():

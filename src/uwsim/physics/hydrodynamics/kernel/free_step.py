@@ -320,7 +320,8 @@ def _site_height(pose: Floats, work: Floats) -> float:
     """Return the height of a site in W [m]."""
     k = _AXES + 6
     rise = work[k] * pose[0] + work[k + 1] * pose[1] + work[k + 2] * pose[2]
-    return work[_ORIGIN + 2] + rise
+    height: float = work[_ORIGIN + 2] + rise
+    return height
 
 
 @njit_borrowed
