@@ -20,6 +20,10 @@ TRUTH = "bluerov2_heavy"
 """The hydrodynamics file of the vehicle that makes the log."""
 ROBOT = "bluerov2_heavy.urdf"
 """The robot of the example."""
+POOL_START = (0.0, 2.4, 3.3)
+"""The position in L at which the log begins, in the bundled pool of 12 x 8 x 4 m [m]."""
+SEED, HEAVE_OFFSET = 98, 0.05
+"""The seed and the command against the buoyancy with which the vehicle stays in the pool."""
 LOG_NAME, GUESS_NAME = "swim.csv", "guess.xml"
 """The names of the files."""
 SOURCE = (
@@ -38,7 +42,9 @@ def write_example(directory: Path, *, duration: float = 120.0) -> tuple[Path, Pa
         directory: the directory.
         duration: the length of the log [s].
     """
-    log = simulate_log(make_scene(TRUTH), excitation=Excitation(duration=duration))
+    scene = make_scene(TRUTH, position=POOL_START)
+    excitation = Excitation(duration=duration, heave_offset=HEAVE_OFFSET)
+    log = simulate_log(scene, seed=SEED, excitation=excitation)
     truth = read_vehicle(find_vehicle(TRUTH))
     body = replace(
         truth.bodies[0],

@@ -78,7 +78,9 @@ def give_advice(
     idle_axes = [row.axis for row in excitation if not row.is_excited and row.axis in free_axes]
     for axis in idle_axes:
         advice.append(f"{axis} was never excited: {MANOEUVRES[axis]}.")
-    doubtful_axes = {_axis_of(estimate) for estimate in estimates if not estimate.is_determined}
+    doubtful_axes = {
+        _axis_of(estimate) for estimate in estimates if estimate.doubt not in ("", "bound")
+    }
     for axis in AXES:
         if axis in doubtful_axes and axis not in idle_axes:
             advice.append(f"{axis} needs more excitation: {MANOEUVRES[axis]}.")

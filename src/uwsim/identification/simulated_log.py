@@ -51,6 +51,8 @@ class Excitation:
     """The length [s]."""
     amplitudes: tuple[float, ...] = (0.4, 0.4, 0.35, 0.012, 0.012, 0.06)
     """The greatest commands along surge, sway, heave, roll, pitch and yaw [1]."""
+    heave_offset: float = 0.0
+    """The command along heave that is added to all, against a free weight [1]."""
     min_hold: float = 0.8
     """The shortest time for which a command holds [s]."""
     max_hold: float = 3.0
@@ -190,6 +192,7 @@ def draw_commands(vehicle: VehicleModel, excitation: Excitation, seed: int) -> t
         starts = np.array([time for time, _ in axis_steps])
         rows = np.searchsorted(starts, times + 1e-9) - 1
         along_axes[:, axis] = np.array([value for _, value in axis_steps])[rows]
+    along_axes[:, AXES.index("heave")] += excitation.heave_offset
     commands = (along_axes[:, None, :] * mixing).sum(axis=2)
     fins = np.array([row[c.ROLE] == c.FIN for row in vehicle.numbers.actuators])
     limits = np.where(fins[:, None], np.inf, vehicle.numbers.limits)

@@ -26,8 +26,8 @@ from ..scene.sim_params import SimParamsSpec
 from ..scene.spec import SceneSpec
 from ..scene.vehicle import VehicleSpec
 
-DEPTH = 50.0
-"""The depth of the vehicle in the scene that is made for it [m]."""
+START = (0.0, 0.0, 50.0)
+"""The position of the vehicle in the scene that is made for it, in L [m]."""
 SURFACE_DISTANCE = 1e6
 """The height by which the surface is moved away from vehicles [m]."""
 ROBOTS = {
@@ -77,12 +77,15 @@ class VehicleModel:
         )
 
 
-def make_scene(vehicle: str, robot: str | None = None) -> SceneSpec:
+def make_scene(
+    vehicle: str, robot: str | None = None, *, position: tuple[float, float, float] = START
+) -> SceneSpec:
     """Return a scene with one vehicle in deep water, in a frame north, east, down.
 
     Args:
         vehicle: a hydrodynamics file, or the name of a bundled one.
         robot: the URDF file; None: the file of the same name beside it, or the bundled one.
+        position: the position of the vehicle in L [m].
 
     Raises:
         UnknownName: there is no such hydrodynamics file.
@@ -97,7 +100,7 @@ def make_scene(vehicle: str, robot: str | None = None) -> SceneSpec:
     file = robot or ROBOTS.get(name, f"{name}.urdf")
     return SceneSpec(
         sim_params=SimParamsSpec(offsetr=NORTH_EAST_DOWN),
-        vehicles=(VehicleSpec(name=name, file=file, dynamics=name, position=(0.0, 0.0, DEPTH)),),
+        vehicles=(VehicleSpec(name=name, file=file, dynamics=name, position=position),),
         path=str(folder / "identification.xml"),
     )
 

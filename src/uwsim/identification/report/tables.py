@@ -66,7 +66,7 @@ def list_warnings(result: Identification) -> list[str]:
     warnings += [
         f"{estimate.parameter.name} is at the bound of its range."
         for estimate in estimates
-        if estimate.is_at_bound and estimate.value != 0.0
+        if estimate.is_at_bound and estimate.value != 0.0 and estimate.doubt != "bound"
     ]
     if result.n_same_minimum * 2 < result.settings.n_starts:
         warnings.append(
