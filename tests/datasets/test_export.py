@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 import pytest
 
+import uwsim
 from uwsim.bus import Bus
 from uwsim.cli import main
 from uwsim.datasets.export.csv_tables import export_csv
@@ -163,3 +164,18 @@ def test_the_command_exports_and_refuses_two_formats(
     assert main(["export", str(recording), "--csv", "--minari"]) == 2
     assert "Choose one of" in capfd.readouterr().err
     assert main(["export", str(tmp_path / "none.mcap"), "--csv", "-o", str(tmp_path / "u")]) != 0
+
+
+def test_rows_of_a_result_are_a_table(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    result = uwsim.bench(
+        "visibility", levels={"fog": [0.0]}, algorithm="frozen", out=tmp_path / "one.result"
+    )
+    assert main(["export", str(tmp_path / "one.result"), "--csv", "-o", str(tmp_path / "t")]) == 0
+    with (tmp_path / "t/rows.csv").open() as stream:
+        (row,) = csv.DictReader(stream)
+    labels = [column.label for column in result.columns]
+    assert list(row) == labels
+    texts = ["" if cell is None else str(cell) for cell in result.rows[0]]
+    assert list(row.values()) == texts
+    assert main(["export", str(tmp_path / "one.result"), "--minari"]) == 2
+    assert "is a result" in capfd.readouterr().err

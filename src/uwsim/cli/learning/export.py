@@ -13,7 +13,10 @@ from ..options.help_texts import INPUT, OUTPUT, option
 
 RecordingArgument = Annotated[
     Path,
-    typer.Argument(metavar="RECORDING", help="A recording: .mcap, .bag, .db3, or a rosbag2."),
+    typer.Argument(
+        metavar="RESULT|RECORDING",
+        help="A recording (.mcap, .bag, .db3, a rosbag2), or a result directory for --csv.",
+    ),
 ]
 
 
@@ -76,11 +79,23 @@ def export(
 ) -> None:
     """Export a recording for learning: tables, or steps of observations and actions.
 
+    --csv of a result writes its rows.
+
     A step has the newest message of each topic at its time. A recording is one episode.
     """
+    from ...datasets.export.result_rows import export_rows, is_result
+
     n_formats = formats.csv + formats.lerobot + formats.minari
     if n_formats != 1:
         raise BadSetting("Choose one of --csv, --lerobot and --minari.")
+    if is_result(recording):
+        if not formats.csv:
+            raise BadSetting(
+                f"{recording}: is a result, which has rows and no messages; expected --csv, or a "
+                "recording (uwsim run --record)."
+            )
+        print(f"1 table with {export_rows(recording, out)} rows; written: {out}")
+        return
     observations = tuple(map(add_slash, steps.observation or ()))
     actions = tuple(map(add_slash, steps.action or ()))
     if formats.csv:
