@@ -162,7 +162,8 @@ def _measure_changes(windows: Windows) -> Array:
     vectors = (turns[:, 1:] * angles / np.maximum(size, 1e-12)).reshape(*samples.shape[:2], 3)
     columns = [samples[:, :, columns] for columns in (slice(0, 3), slice(7, 13))]
     position, twist = (part - part[:, :1] for part in columns)
-    return np.nan_to_num(np.concatenate([position, vectors, twist], axis=2))
+    changes: Array = np.nan_to_num(np.concatenate([position, vectors, twist], axis=2))
+    return changes
 
 
 def _spread(values: Array) -> float:
