@@ -166,6 +166,7 @@ class FakeWorld:
         self.contacts_by_body: dict[str, list[Contact]] = {}
         self.forces_by_body: dict[str, dict[str, np.ndarray]] = {}
         self.actuators_by_vehicle: dict[str, Actuators] = {}
+        self.twists_by_vehicle: dict[str, np.ndarray] = {}
         self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
 
@@ -203,6 +204,10 @@ class FakeWorld:
     def contact_forces(self, name: str) -> Mapping[str, np.ndarray]:
         self.body(name)
         return self.forces_by_body.get(name, {})
+
+    def twist(self, name: str) -> np.ndarray:
+        self.body(name)
+        return self.twists_by_vehicle.get(name, np.zeros(6))
 
     def actuators(self, name: str) -> Actuators | None:
         known_vehicles = {*self.actuators_by_vehicle, *self.vehicles}

@@ -19,6 +19,8 @@ from .frozen import FrozenTracker
 from .grasp import Grasp, GraspBlindClose, GraspNothing, GraspP, GraspTruth
 from .orb import Orb
 from .pilot import Pilot
+from .policy import is_policy
+from .position import PositionP, PositionPI
 from .scripted import ScriptedPilot
 from .tracker_node import merge_parameters
 
@@ -41,6 +43,8 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "p": P,
     "pi": PI,
     "pilot": Pilot,
+    "position-p": PositionP,
+    "position-pi": PositionPI,
     "scripted": ScriptedPilot,
     "ssd-esm": SsdEsm,
 }
@@ -86,8 +90,10 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
             f"Algorithm {name!r}: the module {module_name!r} has no class {class_name!r}."
             f"{did_you_mean(class_name, classes)}"
         )
-    if not callable(getattr(algorithm, "start", None)):
-        raise BadSetting(f"Algorithm {name!r}: the class has no method start(node).")
+    if not callable(getattr(algorithm, "start", None)) and not is_policy(algorithm):
+        raise BadSetting(
+            f"Algorithm {name!r}: the class has no method start(node), and no __call__ of a policy."
+        )
     return algorithm
 
 

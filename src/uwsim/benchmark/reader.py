@@ -166,6 +166,7 @@ class _Reader:
         function = None if spec is None else spec.function
         if function is not None:
             check_function(root, function, measures, self.diagnostics)
+        self.check_environment(root, spec, measures)
         file_timestep = None if spec is None else spec.timestep
         timestep = self.timestep if file_timestep is None else file_timestep
         for location, message in find_short_times(measures, updater, function, timestep):
@@ -176,6 +177,17 @@ class _Reader:
             for location, message in warn_never_started(spec):
                 self.diagnostics.warning(location, message)
         return spec
+
+    def check_environment(
+        self, root: etree._Element, spec: BenchmarkSpec | None, measures: list[MeasureSpec]
+    ) -> None:
+        """Report the errors of ``<u:environment>`` at the lines of its children."""
+        node = root.find(f"{{{NAMESPACE}}}environment")
+        if node is None or spec is None or spec.environment is None:
+            return
+        for tag, message in spec.environment.errors(measures):
+            child = node.find(tag)
+            self.diagnostics.error(node if child is None else child, message)
 
     def read_measures(self, parent: etree._Element) -> list[MeasureSpec]:
         """Read the children of ``<measures>``, in the file's order."""

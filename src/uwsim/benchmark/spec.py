@@ -7,6 +7,7 @@ from typing import Literal
 
 from ..scene.variation import DISTRIBUTIONS, VariationSpec
 from ..schema import Spec, element
+from .environment import EnvironmentSpec
 from .measures import MeasureSpec
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec, chain
@@ -71,6 +72,9 @@ class BenchmarkSpec(Spec):
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
     """The values of scene updaters that are drawn at random for each seed. ``u:path`` begins with
     the name of the updater, as in ``currentForceUpdater.timeOffset``."""
+    environment: EnvironmentSpec | None = element(namespaced=True, default=None)
+    """The observations, actions and reward of a policy; None: the benchmark is no learning
+    environment."""
     path: str = field(default="", compare=False, metadata={"path": True})
     """The path of the file as given by the user."""
 

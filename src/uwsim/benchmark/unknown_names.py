@@ -8,6 +8,7 @@ from ..errors import Diagnostic, UnknownName, UwsimError
 from ..schema import Diagnostics, Spec, fields_of, line_of
 from ..world import Stage
 from .bind_part import Part, bind_part
+from .environment import Actuator, Observer
 from .spec import BenchmarkSpec
 from .updaters import chain
 
@@ -25,9 +26,8 @@ def find_unknown_names(
     """
     diagnostics = Diagnostics(benchmark.path)
     errors_of = _binding_errors if is_whole else _reference_errors
-    for line, message in dict.fromkeys(
-        error for part in _parts(benchmark) for error in errors_of(part, stage)
-    ):
+    part_errors = [error for part in _parts(benchmark) for error in errors_of(part, stage)]
+    for line, message in dict.fromkeys([*part_errors, *_environment_errors(benchmark, stage)]):
         diagnostics.error(line, message)
     return diagnostics.to_list()
 
@@ -77,6 +77,26 @@ def _reference_errors(spec: object, stage: Stage) -> Iterator[tuple[int | None, 
                 yield line_of(spec, field.tag), str(error)
         elif isinstance(value, Spec):
             yield from _reference_errors(value, stage)
+
+
+def _environment_errors(benchmark: BenchmarkSpec, stage: Stage) -> Iterator[tuple[int | None, str]]:
+    """Yield the unknown names in ``<u:environment>``, or else the error of binding it."""
+    spec = benchmark.environment
+    if spec is None:
+        return
+    reference_errors = [*_reference_errors(spec, stage)]
+    yield from reference_errors
+    if reference_errors:
+        return
+    for part, bind in (
+        (spec.action, lambda: Actuator(spec, stage.world)),
+        (spec.topic_field, lambda: Observer(spec, benchmark.measures, stage.world, 1).close()),
+    ):
+        try:
+            bind()
+        except UwsimError as error:
+            lines = (line_of(child) for child in part)
+            yield next(lines, line_of(spec)), str(error)
 
 
 def _find_vehicle(stage: Stage, name: str) -> None:

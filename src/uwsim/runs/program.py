@@ -36,6 +36,7 @@ def load_program(name: str, table: Mapping[str, type[Algorithm]]) -> type[Algori
 
 def _class_of_file(path: Path, class_name: str) -> type[Algorithm]:
     """Return the class of a file; its name may be empty if only one class has ``start``."""
+    from ..algorithms.policy import is_policy
     from ..benchmark.plugin import read_plugin
 
     plugin = read_plugin(path)
@@ -44,7 +45,7 @@ def _class_of_file(path: Path, class_name: str) -> type[Algorithm]:
         for name, value in vars(plugin.module()).items()
         if isinstance(value, type)
         and value.__module__ == plugin.module_name
-        and callable(getattr(value, "start", None))
+        and (callable(getattr(value, "start", None)) or is_policy(value))
     }
     if class_name in classes:
         return classes[class_name]

@@ -79,6 +79,12 @@ class World(TimedWorld, Protocol):
     def actuators(self, name: str) -> Actuators | None:
         """Return the actuators of a vehicle; None if it is kinematic; raise UnknownName if none."""
 
+    def twist(self, name: str) -> npt.NDArray[np.float64]:
+        """Return the velocity over ground of a vehicle's base; raise UnknownName if none.
+
+        The linear velocity [m/s] is first, then the angular velocity [rad/s], in base axes, (6,).
+        """
+
     def camera(self, name: str) -> Camera:
         """Return a virtual camera; raise UnknownName if there is none."""
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uwsim.base.geometry import Pose
-from uwsim.runs.trial.phase_images import DISTANCE, observer_pose, with_inset
+from uwsim.runs.trial.images.phase_images import DISTANCE, observer_pose, with_inset
 
 DOWN = np.diag([1.0, -1.0, -1.0])  # x ahead, y to starboard, z down, in a world with z up
 

@@ -15,6 +15,7 @@ from .path_following import PathFollowing, PathFollowingSpec
 from .position_error import PositionError, PositionErrorSpec
 from .reconstruction_3d import Reconstruction3D, Reconstruction3DSpec
 from .time import Time, TimeSpec
+from .tracking_error import TrackingError, TrackingErrorSpec
 
 MEASURES: dict[str, type[MeasureSpec]] = {
     "collision": CollisionSpec,
@@ -28,6 +29,7 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "u:control": ControlSpec,
     "u:energy": EnergySpec,
     "u:grasp": GraspSpec,
+    "u:trackingError": TrackingErrorSpec,
 }
 """The spec of each element, in alphabetical order."""
 
@@ -58,4 +60,6 @@ __all__ = [
     "Signal",
     "Time",
     "TimeSpec",
+    "TrackingError",
+    "TrackingErrorSpec",
 ]

@@ -183,7 +183,12 @@ class Child:
         for part in name.split("."):
             cls = getattr(cls, part)
         self._class = cls
-        self._algorithm = cls()
+        if not hasattr(cls, "start"):
+            from ...algorithms.policy import make_algorithm_of
+
+            self._algorithm = make_algorithm_of(cls)
+        else:
+            self._algorithm = cls()
 
     def _start(self, now: float, parameters: dict[str, Any], rng_state: list[Any]) -> None:
         name, state = rng_state

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from functools import partial
 
+from ...algorithms.policy import make_algorithm_of
 from ...bus import Algorithm
 from ...middleware.lockstep.client import LockStepClient
 from ...middleware.lockstep.external_client import make_client
@@ -42,7 +43,7 @@ def program_of(plan: Plan, limit: float | None = None) -> Iterator[Program]:
         elif plan.algorithm.own_process:
             yield partial(_process_algorithm, plan, stack.enter_context(OwnProcess(limit)))
         else:
-            yield lambda simulation, parameters: plan.algorithm.cls()
+            yield lambda simulation, parameters: make_algorithm_of(plan.algorithm.cls)
 
 
 def _process_algorithm(

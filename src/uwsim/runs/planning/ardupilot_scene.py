@@ -6,10 +6,11 @@ import importlib.util
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ...devices.ardupilot import ArduPilotSpec
+from ...devices.ardupilot import ArduPilotLink, ArduPilotSpec
 from ...devices.mavlink import MavlinkSpec
-from ...devices.px4 import Px4Spec
+from ...devices.px4 import Px4, Px4Spec
 from ...scene.spec import SceneSpec
+from ...simulation import Simulation
 from ...world import TIMESTEP
 from .autopilot_scene import add_autopilot, check_ports, remove_parts
 
@@ -74,3 +75,13 @@ def exchange_timestep(scene: SceneSpec) -> float:
     """Return the step nearest to the default one of which the exchanges take a whole number [s]."""
     rate = max((spec.rate for spec in ardupilot_specs(scene)), default=1.0 / TIMESTEP)
     return 1.0 / (rate * max(1, round(1.0 / (rate * TIMESTEP))))
+
+
+def link_notes(simulation: Simulation) -> list[str]:
+    """Return a note for each autopilot with lost, repeated or invalid packets."""
+    return [
+        part.describe()
+        for part in simulation.world.devices
+        if (isinstance(part, ArduPilotLink) and part.state.exchange.has_events)
+        or (isinstance(part, Px4) and part.state.lock_step.has_events)
+    ]

@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from ...base.expression import Expression
+from ...benchmark.updaters import Level
+from ...simulation import Simulation
 from .fingerprint import Checkpoints
-from .snapshots import Snapshot
+from .images.snapshots import Snapshot
+from .log_columns import log_columns
 from .status import SIMULATION_ERROR
 from .triggered_measure import Sample, TriggeredMeasure, finite_value
 from .visibility import Fact
@@ -122,3 +126,51 @@ def collect_remarks(measures: Sequence[TriggeredMeasure]) -> tuple[str, ...]:
         for remark in measure.measure.remarks:
             names.setdefault(remark, []).append(measure.spec.name)
     return tuple(f"{', '.join(measure_names)}: {remark}" for remark, measure_names in names.items())
+
+
+def row_of(
+    level: Level,
+    measures: Sequence[TriggeredMeasure],
+    status: tuple[str, str | None],
+    *,
+    expression: Expression,
+    simulation: Simulation,
+    start_step: int,
+    fingerprint: str,
+    snapshots: tuple[Snapshot, ...],
+) -> LevelRow:
+    """Return the row of a level that has ended.
+
+    Args:
+        level: the level.
+        measures: its measures.
+        status: the status, and its reason.
+        expression: the score.
+        simulation: the simulation at the end of the level.
+        start_step: the step at which the level began.
+        fingerprint: the fingerprint of the trial so far.
+        snapshots: the last images of the cameras.
+    """
+    cells = cells_of(measures, *status)
+    score = expression.score(cells.values)
+    total, reason = finite_value(score.value if status[0] == "ok" else None)
+    if total is None:
+        cells.missing_reasons["total"] = status[1] or score.reason or f"the function: {reason}"
+    logged_measures = [measure for measure in measures if measure.spec.log is not None]
+    return LevelRow(
+        values=level.values,
+        measures={name: (value, cells.units[name]) for name, value in cells.values.items()},
+        details=cells.details,
+        total=total,
+        status=status[0],
+        missing_reasons=cells.missing_reasons,
+        ended_at=simulation.time,
+        duration=(simulation.step - start_step) * simulation.timestep,
+        logs={measure.spec.name: measure.log for measure in logged_measures},
+        log_headers={
+            measure.spec.name: log_columns(measure.measure) for measure in logged_measures
+        },
+        fingerprint=fingerprint,
+        remarks=collect_remarks(measures),
+        snapshots=snapshots,
+    )

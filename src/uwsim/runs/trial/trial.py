@@ -9,8 +9,8 @@ values change linearly to those of the level within 1 s. Without the prelude
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import closing, nullcontext
+from collections.abc import Generator, Iterator
+from contextlib import closing, contextmanager, nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -25,46 +25,44 @@ from ...benchmark.updaters import (
     apply_level,
     begin_level,
     bind_updaters,
-    blend,
     initial_level,
     interval,
     ramp_level,
     settling_time,
 )
-from ...devices.ardupilot import ArduPilotLink
-from ...devices.px4 import Px4
 from ...errors import NeverStarted, SimulationFailed
 from ...messages import String
 from ...simulation import Calls, Simulation
 from ...simulation.markers import SERVICE as SPAWN_MARKER
 from ..own_process.program import Program, pop_refused_messages, program_of
+from ..planning.ardupilot_scene import link_notes
 from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache, compile_plan
 from .error_floor import ErrorFloor
 from .fingerprint import Fingerprinter
+from .images.phase_images import PhaseImages, all_snapshots
 from .known_corners import known_corners
-from .level_row import LevelRow, TrialEnd, cells_of, collect_remarks
+from .level_row import LevelRow, TrialEnd, row_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
-from .log_columns import log_columns
 from .make_algorithm import make_algorithm, reported_parameters, unread_parameters
 from .motion_recorder import MotionRecorder
-from .phase_images import PhaseImages, all_snapshots
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
+from .policy_channel import open_channel
+from .prelude import prelude_levels
 from .status import SIMULATION_ERROR, StatusMonitor, to_line
 from .trial_observer import TrialObserver
 from .trial_recorder import TrialRecorder
-from .triggered_measure import TriggeredMeasure, find_ending, finite_value, tick_all
+from .triggered_measure import (
+    TriggeredMeasure,
+    find_ending,
+    tick_all,
+)
 from .visibility import Fact, TargetMotion, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
 """The topic on which an algorithm reports its status."""
-SETTLING_TIME = 1.0
-"""The time of the prelude at the initial values, before the ramp [s of simulation time]."""
-RAMP_TIME = 1.0
-"""The time of the prelude in which the values change to those of the level [s of simulation
-time]."""
 
 
 def execute(
@@ -90,6 +88,25 @@ def execute(
     Raises:
         NeverStarted: the start trigger did not go on within `Plan.start_timeout`.
     """
+    with open_trial(
+        plan, trial, cache=cache, calls=calls, observer=observer, recorder=recorder
+    ) as execution:
+        for row in execution.rows():
+            if row is not None:
+                yield row
+
+
+@contextmanager
+def open_trial(
+    plan: Plan,
+    trial: Trial,
+    *,
+    cache: TrialCache | None = None,
+    calls: Calls | None = None,
+    observer: TrialObserver | None = None,
+    recorder: TrialRecorder | None = None,
+) -> Iterator[TrialExecution]:
+    """Open the scene of a trial and start its algorithm; the arguments are those of `execute`."""
     calls = calls or Calls()
     with program_of(plan, calls.limit) as program:  # a process starts while the scene is opened
         simulation = Simulation(
@@ -105,10 +122,12 @@ def execute(
                 attribute_errors_to(
                     plan.plugins, describe_progress=partial(_describe_time, simulation, trial)
                 ),
-                closing(_Execution(plan, trial, simulation, program, calls, observer)) as execution,
+                closing(
+                    TrialExecution(plan, trial, simulation, program, calls, observer)
+                ) as execution,
                 attribute_errors_to(plan.plugins, describe_progress=execution.describe_progress),
             ):
-                yield from execution.rows()
+                yield execution
         finally:
             simulation.close()
 
@@ -117,8 +136,8 @@ def _describe_time(simulation: Simulation, trial: Trial) -> str:
     return f"seed {trial.seed}, at {simulation.time:g} s"
 
 
-class _Execution:
-    """A trial during its execution."""
+class TrialExecution:
+    """A trial during its execution, which pauses before each step if a policy may act."""
 
     def __init__(
         self,
@@ -129,7 +148,8 @@ class _Execution:
         calls: Calls,
         observer: TrialObserver | None,
     ) -> None:
-        self._plan, self._trial, self._simulation = plan, trial, simulation
+        self._plan, self._trial = plan, trial
+        self._simulation = self.simulation = simulation
         benchmark = benchmark_of_seed(plan.benchmark, trial.seed)
         self._updater = benchmark.scene_updater
         self._fingerprinter = Fingerprinter(simulation)
@@ -166,6 +186,10 @@ class _Execution:
         self._facts: dict[str, Fact] = {}
         self._target_motion: TargetMotion | None = None
         self._error_floor: ErrorFloor | None = None
+        self.channel = open_channel(benchmark, simulation)
+        """The observations and actions of a policy; None if the benchmark has no environment."""
+        self.active_measures: tuple[TriggeredMeasure, ...] = ()
+        """The measures of the running level; none outside of levels."""
         self._level: Level | None = None  # the latest level
         self._level_start: int | None = None  # the step at which the running level began
         self._n_measured = 0  # the number of measured steps of all levels so far
@@ -177,8 +201,11 @@ class _Execution:
         level = f"level {self._level}, " if self._level else ""
         return level + _describe_time(self._simulation, self._trial)
 
-    def rows(self) -> Iterator[LevelRow | TrialEnd]:
-        """Run the levels; yield a row for each, and finally the end of the trial."""
+    def rows(self) -> Iterator[LevelRow | TrialEnd | None]:
+        """Run the levels; yield a row for each, and finally the end of the trial.
+
+        If the benchmark has an environment, None is yielded before each step.
+        """
         plan, simulation = self._plan, self._simulation
         simulation.advance(0.0)
         self._motion.start()
@@ -191,8 +218,8 @@ class _Execution:
         n_rows = 0
         try:
             for row in self._level_rows():
-                n_rows += 1
-                yield self._finish_row(row)
+                n_rows += row is not None
+                yield None if row is None else self._finish_row(row)
         except SimulationFailed as error:
             for level in self._trial.levels[n_rows:]:
                 yield self._finish_row(self._failed_row(level, str(error)))
@@ -205,17 +232,24 @@ class _Execution:
             notes=(
                 *self._notes,
                 *unread_parameters(plan, self._algorithm, self._node),
-                *_link_notes(simulation),
+                *link_notes(simulation),
             ),
             checkpoints=self._fingerprinter.checkpoints(),
             motion=self._motion.track(),
             inputs=b"" if self._inputs is None else self._inputs.data(),
         )
 
-    def _level_rows(self) -> Iterator[LevelRow]:
+    def _step(self) -> Iterator[None]:
+        """Take one step, with the new action of a policy, before which this pauses."""
+        if self.channel is not None:
+            yield None
+            self.channel.apply()
+        self._simulation.advance()
+
+    def _level_rows(self) -> Iterator[LevelRow | None]:
         """Run the levels; raise SimulationFailed when no further level can run."""
         plan = self._plan
-        self._wait("The benchmark never started")
+        yield from self._wait("The benchmark never started")
         if not plan.is_blind:
             self._target_motion = TargetMotion(self._simulation, plan)
             self._error_floor = ErrorFloor(self._simulation, plan)
@@ -227,12 +261,12 @@ class _Execution:
                 if error_floor is not None:
                     error_floor.start()
                 if plan.benchmark.prelude:
-                    self._prelude(level)
-            self._begin(level, last_level)
-            self._settle(settling_time(self._updater, level, last_level=last_level))
+                    yield from self._prelude(level)
+            yield from self._begin(level, last_level)
+            yield from self._settle(settling_time(self._updater, level, last_level=last_level))
             if error_floor is not None:
                 error_floor.begin()
-            row = self._run_level(level)
+            row = yield from self._run_level(level)
             self._level_start = None
             if error_floor is not None:
                 error_floor.end()
@@ -280,7 +314,7 @@ class _Execution:
         ]
         return tuple(sorted([*cameras, *(s for u in self._updaters for s in u.streams)]))
 
-    def _wait(self, message: str) -> bool:
+    def _wait(self, message: str) -> Generator[None, None, bool]:
         """Advance until a level may begin; return whether that took any time.
 
         Raises:
@@ -298,23 +332,18 @@ class _Execution:
                 reason = self._triggers.describe_wait(timeout)
                 question = f"{message}: {reason}. Does algorithm {node.name!r} see to it?"
                 raise NeverStarted(" ".join([question, *node.describe_unpublished_topics()]))
-            simulation.advance()
+            yield from self._step()
         return simulation.time > start_time
 
-    def _prelude(self, level: Level) -> None:
+    def _prelude(self, level: Level) -> Iterator[None]:
         """Run the algorithm at the initial values, then change them linearly to the level's."""
-        plan, simulation = self._plan, self._simulation
         measures = self._bind_measures()
-        settling, ramp = round(SETTLING_TIME / plan.timestep), round(RAMP_TIME / plan.timestep)
-        initial_values = initial_level(self._updater)
         tick_all(measures)
-        for _ in range(settling):
-            ramp_level(self._updaters, initial_values)
-            simulation.advance()
-            tick_all(measures)
-        for i in range(1, ramp + 1):
-            ramp_level(self._updaters, blend(self._updater, level, i / ramp))
-            simulation.advance()
+        for values, is_measured in prelude_levels(self._updater, level, self._plan.timestep):
+            ramp_level(self._updaters, values)
+            yield from self._step()
+            if is_measured:
+                tick_all(measures)
         self._close_measures(measures)
 
     def _bind_measures(self) -> list[TriggeredMeasure]:
@@ -337,22 +366,22 @@ class _Execution:
         else:
             apply_level(self._updaters, level, last_level=last_level)
 
-    def _begin(self, level: Level, last_level: Level | None) -> None:
+    def _begin(self, level: Level, last_level: Level | None) -> Iterator[None]:
         self._step_to(level, last_level)
         from_initial = self._base_level() if self._trial.is_independent else last_level
         self._live_topics.record_change(level, last_level=from_initial)
         self._triggers.arm()
-        if self._wait(f"Level {level} never began"):
+        if (yield from self._wait(f"Level {level} never began")):
             self._step_to(level, last_level)
             self._triggers.arm()
 
-    def _settle(self, duration: float) -> None:
+    def _settle(self, duration: float) -> Iterator[None]:
         """Run without measurement for the settling time of the updaters [s]."""
         for _ in range(round(duration / self._plan.timestep)):
-            self._simulation.advance()
+            yield from self._step()
             self._monitor.read_reports(self._simulation.time)
 
-    def _run_level(self, level: Level) -> LevelRow:
+    def _run_level(self, level: Level) -> Generator[None, None, LevelRow]:
         """Run one level with newly bound measures; return its row."""
         plan, simulation, monitor = self._plan, self._simulation, self._monitor
         start_step = self._level_start = simulation.step
@@ -366,8 +395,9 @@ class _Execution:
         is_stopped, ending = False, None
         tick_all(measures)
         monitor.read_reports(simulation.time)
+        self.active_measures = tuple(measures)
         for _ in range(n_steps):
-            simulation.advance()
+            yield from self._step()
             self._n_measured += 1
             tick_all(measures)
             self._live_topics.update(level, self._n_measured * plan.timestep, measures)
@@ -393,6 +423,7 @@ class _Execution:
             )
         row = self._row(level, measures, status, reason, start_step)
         self._close_measures(measures)
+        self.active_measures = ()
         return row
 
     def _row(
@@ -403,41 +434,17 @@ class _Execution:
         status_reason: str | None,
         start_step: int,
     ) -> LevelRow:
-        simulation = self._simulation
-        cells = cells_of(measures, status, status_reason)
-        score = self._expression.score(cells.values)
-        total, reason = finite_value(score.value if status == "ok" else None)
-        if total is None:
-            cells.missing_reasons["total"] = (
-                status_reason or score.reason or f"the function: {reason}"
-            )
-        logged_measures = [measure for measure in measures if measure.spec.log is not None]
-        return LevelRow(
-            values=level.values,
-            measures={name: (value, cells.units[name]) for name, value in cells.values.items()},
-            details=cells.details,
-            total=total,
-            status=status,
-            missing_reasons=cells.missing_reasons,
-            ended_at=simulation.time,
-            duration=(simulation.step - start_step) * simulation.timestep,
-            logs={measure.spec.name: measure.log for measure in logged_measures},
-            log_headers={
-                measure.spec.name: log_columns(measure.measure) for measure in logged_measures
-            },
+        is_blind = self._plan.is_blind or status == SIMULATION_ERROR
+        is_tracking = status == "ok"
+        return row_of(
+            level,
+            measures,
+            (status, status_reason),
+            expression=self._expression,
+            simulation=self._simulation,
+            start_step=start_step,
             fingerprint=self._fingerprinter.fingerprint,
-            remarks=collect_remarks(measures),
             snapshots=()
-            if self._plan.is_blind or status == SIMULATION_ERROR
-            else all_snapshots(simulation, measures, self._phases, is_tracking=status == "ok"),
+            if is_blind
+            else all_snapshots(self._simulation, measures, self._phases, is_tracking=is_tracking),
         )
-
-
-def _link_notes(simulation: Simulation) -> list[str]:
-    """Return a note for each autopilot with lost, repeated or invalid packets."""
-    return [
-        part.describe()
-        for part in simulation.world.devices
-        if (isinstance(part, ArduPilotLink) and part.state.exchange.has_events)
-        or (isinstance(part, Px4) and part.state.lock_step.has_events)
-    ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...base.geometry import Array
 from ..physical_scene import PhysicalScene
 from ..scene_sensors import SceneSensors
 from .scene_view import SceneView
@@ -21,4 +22,9 @@ class MeasureView(SceneView):
         self.contact_forces = scene.contacts.forces
         self.camera = sensors.camera
         self.actuators = scene.vehicles.actuators
+        self._vehicles = scene.vehicles
         self.stream = scene.stream
+
+    def twist(self, name: str) -> Array:
+        """Return the twist of a vehicle's base over ground, in base axes, (6,) [m/s, rad/s]."""
+        return self._vehicles.find(name).velocity

@@ -11,16 +11,16 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ...base.files.image_record import ImageRecord
-from ...base.geometry import Array, Intrinsics, Pose
-from ...base.numerics.linear import length
-from ...benchmark.measures import Measure
-from ...scene.mounts import camera_axes
-from ...simulation import Simulation
-from ...simulation.scenery.image_origin import describe_image
-from ...world import Body
+from ....base.files.image_record import ImageRecord
+from ....base.geometry import Array, Intrinsics, Pose
+from ....base.numerics.linear import length
+from ....benchmark.measures import Measure
+from ....scene.mounts import camera_axes
+from ....simulation import Simulation
+from ....simulation.scenery.image_origin import describe_image
+from ....world import Body
+from ..triggered_measure import TriggeredMeasure
 from .snapshots import Snapshot, capture
-from .triggered_measure import TriggeredMeasure
 
 SIZE = (640, 400)
 """The size of an image [px]."""

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...base.files.image_record import ImageRecord
-from ...benchmark.ground_truth import CornersFromCameraSpec
-from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, Measure, MeasureSpec
-from ...simulation import Simulation
-from ...simulation.scenery.image_origin import describe_image
+from ....base.files.image_record import ImageRecord
+from ....benchmark.ground_truth import CornersFromCameraSpec
+from ....benchmark.measures import EuclideanNorm, EuclideanNormSpec, Measure, MeasureSpec
+from ....simulation import Simulation
+from ....simulation.scenery.image_origin import describe_image
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -1,0 +1,88 @@
+"""Policies: algorithms that are functions of the observation of a benchmark's environment.
+
+A benchmark with ``<u:environment>`` publishes its observations on ``observation`` and takes actions
+from ``action``. A class whose objects are functions of an observation is thus an algorithm:
+
+.. code-block:: python
+
+    class Policy:
+        def __call__(self, observation):   # (n,) -> (m,), numbers from -1 to 1
+            return -0.5 * observation[:8]
+
+The parts of an observation are the dimensions of the message, whose labels are their names. A class
+with an attribute ``layout`` receives them there: a dictionary of slices by name.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import Any, Protocol, cast
+
+import numpy as np
+
+from ..base.geometry import Array
+from ..bus import Algorithm, Node
+from ..errors import UnknownName
+from ..messages import Empty, Float64MultiArray, MultiArrayLayout
+
+OBSERVATION, ACTION, START_SERVICE = "observation", "action", "startBench"
+"""The topics of a policy, and the service that starts some benchmarks."""
+
+
+class Policy(Protocol):
+    """A function from an observation to an action."""
+
+    def __call__(self, observation: Array) -> Array:
+        """Return the action for an observation: numbers from -1 to 1, (m,)."""
+
+
+class PolicyNode:
+    """An algorithm that applies a policy to each observation.
+
+    Args:
+        policy: the policy.
+    """
+
+    def __init__(self, policy: Policy) -> None:
+        self._policy = policy
+        self._layout: dict[str, slice] = {}
+
+    def start(self, node: Node) -> None:
+        """Subscribe to the observations, and start the benchmark."""
+        self._publish = node.publisher(ACTION, Float64MultiArray)
+        node.subscribe(OBSERVATION, Float64MultiArray, self._on_observation)
+        with suppress(UnknownName):
+            node.call(START_SERVICE, Empty())
+
+    def _on_observation(self, message: Float64MultiArray) -> None:
+        if not self._layout:
+            self._layout = slices_of(message)
+            if hasattr(self._policy, "layout"):
+                self._policy.layout = self._layout
+        action = self._policy(message.data.copy())
+        data = np.asarray(action, dtype=np.float64).reshape(-1)
+        layout = MultiArrayLayout(dim=[], data_offset=0)
+        self._publish(Float64MultiArray(layout=layout, data=data))
+
+
+def slices_of(message: Float64MultiArray) -> dict[str, slice]:
+    """Return the part of each labelled dimension of an observation."""
+    slices, start = {}, 0
+    for dimension in message.layout.dim:
+        slices[dimension.label] = slice(start, start + dimension.size)
+        start += dimension.size
+    return slices
+
+
+def is_policy(value: object) -> bool:
+    """Return whether a class makes policies: it has ``__call__``, and no ``start(node)``."""
+    return (
+        isinstance(value, type)
+        and any("__call__" in vars(cls) for cls in value.__mro__ if cls is not object)
+        and not hasattr(value, "start")
+    )
+
+
+def make_algorithm_of(cls: type[Any]) -> Algorithm:
+    """Make the algorithm of a class: an object of it, or a node for the policy that it makes."""
+    return PolicyNode(cls()) if is_policy(cls) else cast("Algorithm", cls())

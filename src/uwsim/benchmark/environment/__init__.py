@@ -1,0 +1,25 @@
+"""The learning environment of a benchmark, ``<u:environment>``: observations, actions, reward.
+
+`spec` has the elements, `channels` the quantities of a vehicle's state, `topic_fields` the numbers
+of messages, `observer` the vector of observations, `actuator` the commands, and `reward` the
+formulas.
+"""
+
+from __future__ import annotations
+
+from .actuator import Actuator
+from .channels import CHANNELS
+from .observer import Observer
+from .reward import REWARD_NAMES, RewardFunction
+from .spec import ActionSpec, EnvironmentSpec, TopicFieldSpec
+
+__all__ = [
+    "CHANNELS",
+    "REWARD_NAMES",
+    "ActionSpec",
+    "Actuator",
+    "EnvironmentSpec",
+    "Observer",
+    "RewardFunction",
+    "TopicFieldSpec",
+]

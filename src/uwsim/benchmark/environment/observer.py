@@ -1,0 +1,63 @@
+"""The observation of an environment: a vector of the state's quantities and of topics' numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...base.geometry import Array
+from ...world import World
+from ..measures import MeasureSpec
+from .channels import CHANNELS, VehicleState
+from .spec import EnvironmentSpec
+from .topic_fields import TopicField
+
+
+class Observer:
+    """The reader of an environment's observation.
+
+    Args:
+        spec: the environment.
+        measures: the measures of the benchmark, one of which may have the desired position.
+        world: the scene.
+        n_actions: the number of numbers of an action.
+
+    Raises:
+        UnknownName: the scene lacks the vehicle, a topic, or a topic the field.
+    """
+
+    def __init__(
+        self,
+        spec: EnvironmentSpec,
+        measures: Sequence[MeasureSpec],
+        world: World,
+        n_actions: int,
+    ) -> None:
+        self._world, self._vehicle = world, spec.vehicle
+        self._trajectory = spec.trajectory(measures)
+        self._channels = [CHANNELS[name] for name in spec.channels]
+        self._fields = [TopicField(field, world) for field in spec.topic_field]
+        sizes = [n_actions if size is None else size for size, _ in self._channels]
+        names = [*spec.channels, *(f"{f.topic}:{f.field}" for f in spec.topic_field)]
+        sizes += [field.size for field in self._fields]
+        self.layout: tuple[tuple[str, int], ...] = tuple(zip(names, sizes, strict=True))
+        """The name and the size of each part of the vector, in order."""
+        self.size = sum(sizes)
+        """The size of the vector."""
+
+    def state(self, last_action: Array) -> VehicleState:
+        """Return the present state of the vehicle."""
+        return VehicleState.read(self._world, self._vehicle, self._trajectory, last_action)
+
+    def read(self, last_action: Array) -> Array:
+        """Return the present observation, (size,)."""
+        state = self.state(last_action)
+        parts = [read(state) for _, read in self._channels]
+        parts += [field.read() for field in self._fields]
+        return np.concatenate(parts)
+
+    def close(self) -> None:
+        """End the subscriptions."""
+        for field in self._fields:
+            field.close()

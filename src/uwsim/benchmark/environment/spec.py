@@ -1,0 +1,155 @@
+"""The elements of ``<u:environment>``.
+
+.. code-block:: xml
+
+    <u:environment>
+      <vehicle>bluerov2</vehicle> <reference>offset</reference> <period>0.05</period>
+      <observation>positionError heading gravity linearVelocity angularVelocity</observation>
+      <topicField> <topic>/bluerov2/dvl</topic> <field>velocity</field> </topicField>
+      <action> <topic>/bluerov2/thrusters</topic> </action>
+      <reward>exp(-offset) - 0.01*effort</reward>
+      <success>offset &lt; 0.1</success>
+    </u:environment>
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from ...base.expression import ScoreError, parse
+from ...errors import did_you_mean
+from ...schema import Numbers, Spec, element
+from ..measures import MeasureSpec, PositionErrorSpec, TrackingErrorSpec
+from ..metrics.held_commands import TWIST_UNITS, WRENCH_UNITS
+from ..reference_trajectory import TrajectorySpec
+from .channels import CHANNELS, REFERENCE_CHANNELS
+from .reward import REWARD_NAMES
+
+AXES = (*TWIST_UNITS, *WRENCH_UNITS)
+"""The axes of commands by twists and wrenches."""
+MAX_SIZE = 4096
+"""The greatest number of numbers of an array in a message."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TopicFieldSpec(Spec):
+    """A ``<topicField>`` element: numbers of the newest message on a topic."""
+
+    topic: str
+    """The name of the topic."""
+    field: str
+    """The field of the message, such as ``twist.twist.linear`` or ``range``; all numbers of a field
+    with fields of its own."""
+    size: int = element(default=1, minimum=1, maximum=MAX_SIZE)
+    """The number of numbers, if the field is an array."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ActionSpec(Spec):
+    """An ``<action>`` element: the commands on a topic.
+
+    Each number of the action is from -1 to 1, and is multiplied by its limit.
+    """
+
+    topic: str
+    """The topic of the commands (Float64MultiArray, Twist, TwistStamped, Wrench, WrenchStamped or
+    JointState)."""
+    axes: str = ""
+    """The axes of a twist (``vx`` ... ``wz``) or of a wrench (``fx`` ... ``tz``), or the names of
+    joints, separated by blanks; absent for thrusters. Other axes are 0."""
+    limits: Numbers = element(default=())
+    """The command for an action of 1, a number for each axis, or one for all
+    [m/s, rad/s, N, N m, rad or 1]; by default 1."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnvironmentSpec(Spec):
+    """A ``<u:environment>`` element: what a policy observes and commands, and its reward."""
+
+    vehicle: str = element(refers_to="vehicle")
+    """The vehicle whose state is observed."""
+    period: float = element(default=0.05, exclusive_minimum=0.0, maximum=60.0)
+    """The time between two actions [s]."""
+    reference: str | None = element(default=None)
+    """The measure that has the desired position: a ``<positionError>`` or a
+    ``<u:trackingError>``."""
+    observation: str = ""
+    """The observed quantities of the vehicle's state, separated by blanks
+    (`uwsim.benchmark.environment.channels`)."""
+    topic_field: tuple[TopicFieldSpec, ...] = ()
+    """The observed numbers of messages, which follow the state."""
+    action: tuple[ActionSpec, ...]
+    """The commands of which an action consists."""
+    reward: str = "0"
+    """The reward of a step: an expression of the newest samples of the measures, and of the names
+    of `uwsim.benchmark.environment.reward`."""
+    success: str | None = element(default=None)
+    """The criterion of success at the end of an episode: an expression of the values of the
+    measures; other than 0 is a success. By default the status ``ok`` is a success."""
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The names of the observed quantities of the state."""
+        return tuple(self.observation.split())
+
+    def trajectory(self, measures: Sequence[MeasureSpec]) -> TrajectorySpec | None:
+        """Return the desired position at each time; None without a reference."""
+        for spec in measures:
+            if spec.name == self.reference and isinstance(spec, TrackingErrorSpec):
+                return spec.trajectory
+            if spec.name == self.reference and isinstance(spec, PositionErrorSpec):
+                return TrajectorySpec(shape="point", centre=spec.position)
+        return None
+
+    def errors(self, measures: Sequence[MeasureSpec]) -> Iterator[tuple[str, str]]:
+        """Yield the errors of the element: the name of a child, and the message.
+
+        Args:
+            measures: the measures of the benchmark.
+        """
+        names = [spec.name for spec in measures]
+        for channel in self.channels:
+            if channel not in CHANNELS:
+                yield (
+                    "observation",
+                    f"<observation> names {channel[:60]!r}.{did_you_mean(channel, CHANNELS)} "
+                    f"Known: {', '.join(CHANNELS)}",
+                )
+            elif channel in REFERENCE_CHANNELS and self.reference is None:
+                yield "observation", f"{channel} in <observation> needs a <reference>"
+        if not self.channels and not self.topic_field:
+            yield "observation", "nothing is observed; expected <observation> or <topicField>"
+        if not self.action:
+            yield "action", "there is no <action>; expected one at least"
+        if self.reference is not None and self.trajectory(measures) is None:
+            with_position = [
+                spec.name
+                for spec in measures
+                if isinstance(spec, PositionErrorSpec | TrackingErrorSpec)
+            ]
+            yield (
+                "reference",
+                f"<reference> names {self.reference[:60]!r}, which is no <positionError> or "
+                f"<u:trackingError>.{did_you_mean(self.reference, with_position)} "
+                f"Known: {', '.join(with_position) or 'none'}",
+            )
+        yield from self._action_errors()
+        for tag, text, valid_names in (
+            ("reward", self.reward, [*names, *REWARD_NAMES]),
+            ("success", self.success or "0", names),
+        ):
+            try:
+                parse(text, valid_names)
+            except ScoreError as error:
+                yield tag, f"<{tag}>: {error.message} (column {error.column + 1})"
+
+    def _action_errors(self) -> Iterator[tuple[str, str]]:
+        for action in self.action:
+            n_axes, n_limits = len(action.axes.split()), len(action.limits)
+            if n_limits > 1 and n_axes and n_limits != n_axes:
+                yield (
+                    "action",
+                    f"<limits> of {action.topic!r} has {n_limits} numbers for {n_axes} axes; "
+                    "expected one for each axis, or one for all",
+                )

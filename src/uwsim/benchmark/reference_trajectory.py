@@ -1,0 +1,83 @@
+r"""The place at which a body should be at each time: ``<trajectory>``.
+
+.. code-block:: xml
+
+    <trajectory>
+      <shape>helix</shape> <centre> <x>0</x> <y>0</y> <z>2</z> </centre>
+      <radius>1</radius> <period>20</period> <rise>0.4</rise>
+    </trajectory>
+
+With the phase :math:`\varphi = 2 \pi t / T` at the simulation time t, the centre c, the radius r
+and the rise h, the position is
+
+.. math::
+
+    \text{circle, helix:} \quad & c + (r \cos\varphi,\ r \sin\varphi,\ h \varphi / 2 \pi) \\
+    \text{lemniscate:} \quad & c + (r \cos\varphi,\ r \sin\varphi \cos\varphi,\ h \varphi / 2 \pi)
+
+The lemniscate is that of Gerono. A point is at c. The axes are those of the scene file, L.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ..base.geometry import Array
+from ..schema import Spec, element
+
+SHAPES = ("point", "circle", "helix", "lemniscate")
+"""The shapes of trajectories."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrajectorySpec(Spec):
+    """A ``<trajectory>`` element: a place that moves with time."""
+
+    shape: Literal["point", "circle", "helix", "lemniscate"]
+    """The shape of the path."""
+    centre: tuple[float, float, float]
+    """The centre of the path, or the point, in the localized world frame L [m]."""
+    radius: float = element(default=0.0, minimum=0.0)
+    """The radius, or half the length of a lemniscate [m]."""
+    period: float = element(default=20.0, exclusive_minimum=0.0)
+    """The time of one turn [s]."""
+    rise: float = element(default=0.0)
+    """The distance along z that a helix moves in one turn [m]; z points down in most scenes."""
+
+    def errors(self) -> Sequence[str]:
+        """Return errors of numbers that do not fit the shape."""
+        if self.shape != "point" and self.radius == 0.0:
+            return [f"<radius> is 0; a {self.shape} needs a radius > 0 [m]"]
+        if self.shape == "point" and self.radius:
+            return ["<radius> is not that of a point; choose another <shape>"]
+        if self.shape != "helix" and self.rise:
+            return [f"<rise> is that of a helix, and the <shape> is {self.shape}"]
+        return []
+
+    def position(self, time: float) -> Array:
+        """Return the position at a time [s], in L, (3,) [m]."""
+        centre = np.array(self.centre)
+        if self.shape == "point":
+            return centre
+        phase = 2.0 * math.pi * time / self.period
+        cosine, sine = float(np.cos(phase)), float(np.sin(phase))
+        lateral = sine * cosine if self.shape == "lemniscate" else sine
+        offset = [self.radius * cosine, self.radius * lateral, self.rise * time / self.period]
+        position: Array = centre + offset
+        return position
+
+    def velocity(self, time: float) -> Array:
+        """Return the velocity at a time [s], in L, (3,) [m/s]."""
+        if self.shape == "point":
+            return np.zeros(3)
+        rate = 2.0 * math.pi / self.period
+        phase = rate * time
+        cosine, sine = float(np.cos(phase)), float(np.sin(phase))
+        lateral = cosine * cosine - sine * sine if self.shape == "lemniscate" else cosine
+        speed = self.radius * rate
+        return np.array([-speed * sine, speed * lateral, self.rise / self.period])
