@@ -558,7 +558,14 @@ def test_the_bundled_benchmarks_are_those_of_the_design(name: str) -> None:
     assert told == dict.fromkeys(box + face, None) | {scored[0]: "autoInit"}
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in BUNDLED.glob("*.xml")))
+SCORED_BY_EXTENSIONS = ("circle", "helix", "lemniscate")
+"""Bundled benchmarks whose score is that of a ``<u:trackingError>``, which the original lacks."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    sorted({path.stem for path in BUNDLED.glob("*.xml")} - {*SCORED_BY_EXTENSIONS}),
+)
 def test_a_bundled_benchmark_without_extensions_is_one_of_the_original(
     name: str, file: Path
 ) -> None:

@@ -66,8 +66,8 @@ class TrajectorySpec(Spec):
             return centre
         phase = 2.0 * math.pi * time / self.period
         cosine, sine = float(np.cos(phase)), float(np.sin(phase))
-        lateral = sine * cosine if self.shape == "lemniscate" else sine
-        offset = [self.radius * cosine, self.radius * lateral, self.rise * time / self.period]
+        breadth = sine * cosine if self.shape == "lemniscate" else sine
+        offset = [self.radius * cosine, self.radius * breadth, self.rise * time / self.period]
         position: Array = centre + offset
         return position
 
@@ -78,6 +78,6 @@ class TrajectorySpec(Spec):
         rate = 2.0 * math.pi / self.period
         phase = rate * time
         cosine, sine = float(np.cos(phase)), float(np.sin(phase))
-        lateral = cosine * cosine - sine * sine if self.shape == "lemniscate" else cosine
+        breadth = cosine * cosine - sine * sine if self.shape == "lemniscate" else cosine
         speed = self.radius * rate
-        return np.array([-speed * sine, speed * lateral, self.rise / self.period])
+        return np.array([-speed * sine, speed * breadth, self.rise / self.period])

@@ -1,1 +1,27 @@
-"""Environments for learning."""
+"""Environments for learning: a benchmark file with ``<u:environment>`` as a Gymnasium environment.
+
+.. code-block:: python
+
+    import gymnasium
+
+    env = gymnasium.make("uwsim.envs:uwsim/StationKeeping-v0")
+    observation, info = env.reset(seed=1)
+    observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+
+`make_env` makes the environment of any benchmark file. `batch` steps rows of free vehicles in
+compiled code. Gymnasium is the extra ``envs``: ``pip install 'uwsim[envs]'``.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+
+__all__: list[str] = []
+
+if importlib.util.find_spec("gymnasium") is not None:
+    from .benchmark_env import BenchmarkEnv, make_env
+    from .registration import TASKS, register_tasks
+    from .vector_env import BenchmarkVectorEnv
+
+    register_tasks()
+    __all__ += ["TASKS", "BenchmarkEnv", "BenchmarkVectorEnv", "make_env", "register_tasks"]

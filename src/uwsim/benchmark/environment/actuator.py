@@ -83,7 +83,7 @@ class _Command:
             )
         self._limits = np.array(spec.limits) if n_limits else np.ones(1)
         self._make = MAKERS[message_type]
-        self._publish = world.bus.publisher(spec.topic, message_type)
+        self._publish: Callable[[Any], None] = world.bus.publisher(spec.topic, message_type)
 
     def publish(self, action: Array) -> None:
         self._publish(self._make(self._axes, action * self._limits, self._world.time))

@@ -13,6 +13,9 @@ from .channels import CHANNELS, VehicleState
 from .spec import EnvironmentSpec
 from .topic_fields import TopicField
 
+MAX_OBSERVATION = 1e6
+"""The bound to which the numbers of an observation are limited."""
+
 
 class Observer:
     """The reader of an environment's observation.
@@ -51,11 +54,12 @@ class Observer:
         return VehicleState.read(self._world, self._vehicle, self._trajectory, last_action)
 
     def read(self, last_action: Array) -> Array:
-        """Return the present observation, (size,)."""
+        """Return the present observation, limited to `MAX_OBSERVATION`, (size,)."""
         state = self.state(last_action)
         parts = [read(state) for _, read in self._channels]
         parts += [field.read() for field in self._fields]
-        return np.concatenate(parts)
+        limited_values: Array = np.clip(np.concatenate(parts), -MAX_OBSERVATION, MAX_OBSERVATION)
+        return limited_values
 
     def close(self) -> None:
         """End the subscriptions."""

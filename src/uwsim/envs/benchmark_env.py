@@ -1,0 +1,220 @@
+"""The Gymnasium environment of a benchmark file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypedDict, Unpack
+
+import gymnasium
+import numpy as np
+import numpy.typing as npt
+from gymnasium.spaces import Box
+
+from ..base.geometry import Array
+from ..benchmark.environment.observer import MAX_OBSERVATION
+from ..errors import BadSetting, UnknownName
+from ..runs.planning.trial_cache import TrialCache
+from ..sensors.virtual_camera import VirtualCameraSpec
+from .episode import Episode, environment_of
+from .levels import draw_level, read_choices
+from .task import EnvironmentOptions, make_task
+
+MAX_SEED = 2**31 - 1
+"""The greatest seed that an environment draws for an episode without a seed."""
+Action = npt.NDArray[np.float32]
+
+
+class EnvOptions(TypedDict, total=False):
+    """The options of an environment; `BenchmarkEnv` describes them."""
+
+    observation: Sequence[str] | None
+    action: Sequence[str] | None
+    reward: str | None
+    success: str | None
+    vehicle: str | None
+    reference: str | None
+    period: float | None
+    settings: Mapping[str, float | str] | None
+    data_path: Sequence[str | Path]
+    render_mode: str | None
+    camera: str | None
+
+
+class BenchmarkEnv(gymnasium.Env[Array, Action]):
+    """The environment of a benchmark file with ``<u:environment>``.
+
+    Args:
+        benchmark: a benchmark file or a bundled name.
+        observation: the observed quantities and fields of topics; None: those of the file.
+        action: the topics of the commands; None: those of the file.
+        reward: the expression of the reward; None: that of the file.
+        success: the expression of the success; None: that of the file.
+        vehicle: the vehicle; None: that of the file, or the first of the scene.
+        reference: the measure with the desired position; None: that of the file.
+        period: the time between two actions [s]; None: that of the file.
+        settings: values to change in the scene and the updaters, as ``--set`` names them.
+        data_path: more folders in which files are searched.
+        render_mode: ``rgb_array``, or None.
+        camera: the camera of the images; None: the first of the scene.
+
+    Raises:
+        UwsimError: a file, a name or an option is invalid.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 20}  # noqa: RUF012
+
+    def __init__(
+        self,
+        benchmark: str | Path,
+        *,
+        observation: Sequence[str] | None = None,
+        action: Sequence[str] | None = None,
+        reward: str | None = None,
+        success: str | None = None,
+        vehicle: str | None = None,
+        reference: str | None = None,
+        period: float | None = None,
+        settings: Mapping[str, float | str] | None = None,
+        data_path: Sequence[str | Path] = (),
+        render_mode: str | None = None,
+        camera: str | None = None,
+    ) -> None:
+        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
+            raise BadSetting(f"render_mode is {render_mode!r}; expected 'rgb_array' or None.")
+        options = EnvironmentOptions(
+            observation=observation,
+            action=action,
+            reward=reward,
+            success=success,
+            vehicle=vehicle,
+            reference=reference,
+            period=period,
+        )
+        self._plan = make_task(
+            benchmark, options, settings=settings or {}, data_path=tuple(data_path)
+        )
+        self.render_mode = render_mode
+        self.metadata = {
+            **type(self).metadata,
+            "render_fps": max(1, round(1.0 / environment_of(self._plan).period)),
+        }
+        self._cache = TrialCache()
+        self._seed = 0
+        self._episode: Episode | None = self._begin(0, {})
+        self._is_over = True
+        self.layout = self._episode.layout
+        """The name and the size of each part of the observation, in order."""
+        size = sum(n for _, n in self.layout)
+        self.observation_space = Box(-MAX_OBSERVATION, MAX_OBSERVATION, (size,), np.float64)
+        self.action_space = Box(-1.0, 1.0, (self._episode.n_actions,), np.float32)
+        self._camera = self._camera_name(camera)
+
+    @property
+    def stepper(self) -> str:
+        """The stepper of the environment, and the reason for it."""
+        return "engine: the trial of uwsim bench, for any scene and any topic"
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Array, dict[str, Any]]:
+        """Begin an episode.
+
+        Args:
+            seed: the seed of the episode, that of ``uwsim bench --seed``; None: the environment
+                draws one.
+            options: ``{"level": {...}}`` with a value or a range for each swept parameter; others
+                are drawn from the levels of the benchmark.
+
+        Returns:
+            The observation, and ``info`` with ``seed``, ``level`` and ``variations``.
+        """
+        choices = read_choices(self._plan.benchmark.scene_updater, options)
+        super().reset(seed=seed)
+        episode_seed = int(self.np_random.integers(MAX_SEED)) if seed is None else seed
+        if self._episode is not None:
+            self._episode.close()
+        self._episode = self._begin(episode_seed, choices)
+        self._is_over = False
+        return self._episode.observe(), self._info()
+
+    def step(self, action: Action) -> tuple[Array, float, bool, bool, dict[str, Any]]:
+        """Apply an action for one period, or until the episode ends."""
+        episode = self._episode
+        if episode is None or self._is_over:
+            raise gymnasium.error.ResetNeeded("The episode is over; call reset() first.")
+        values = np.asarray(action, dtype=np.float64)
+        if values.shape != self.action_space.shape or not np.isfinite(values).all():
+            raise BadSetting(
+                f"The action has the shape {values.shape}; expected {self.action_space.shape}, "
+                "finite numbers from -1 to 1."
+            )
+        reward = episode.step(values)
+        observation = episode.observe()
+        self._is_over = episode.row is not None
+        is_truncated = episode.is_truncated
+        is_terminated = self._is_over and not is_truncated
+        return observation, reward, is_terminated, is_truncated, self._info()
+
+    def render(self) -> npt.NDArray[np.uint8] | None:
+        """Return the image of the camera, (h, w, 3); None without a render mode."""
+        if self.render_mode is None or self._episode is None:
+            return None
+        if self._camera is None:
+            raise BadSetting("The scene has no <virtualCamera>; expected one to render.")
+        colour = self._episode.simulation.image(self._camera).colour
+        assert colour is not None
+        return np.array(colour, dtype=np.uint8)
+
+    def close(self) -> None:
+        """Close the scene and its renderer."""
+        if self._episode is not None:
+            self._episode.close()
+            self._episode = None
+        self._cache.close()
+
+    def _begin(self, seed: int, choices: Mapping[str, float | tuple[float, float]]) -> Episode:
+        self._seed = seed
+        self._level = draw_level(self._plan.benchmark.scene_updater, seed, choices)
+        return Episode(self._plan, seed, self._level, self._cache)
+
+    def _info(self) -> dict[str, Any]:
+        """Return the seed and the level and, at the end, the result of the benchmark."""
+        info: dict[str, Any] = {
+            "seed": self._seed,
+            "level": dict(self._level.values),
+            "variations": {draw.path: draw.value for draw in self._plan.draws(self._seed)},
+        }
+        row = None if self._episode is None else self._episode.row
+        if row is not None and self._episode is not None:
+            is_success = self._episode.is_success
+            info |= {
+                "measures": {name: _number(value) for name, (value, _) in row.measures.items()},
+                "score": _number(row.total),
+                "status": row.status,
+                "is_success": is_success,
+                "success": is_success,
+            }
+        return info
+
+    def _camera_name(self, camera: str | None) -> str | None:
+        """Return the name of the camera of the images; raise UnknownName if there is none."""
+        names = [
+            spec.name
+            for vehicle in self._plan.scene.vehicles
+            for spec in vehicle.parts
+            if isinstance(spec, VirtualCameraSpec)
+        ]
+        if camera is not None and camera not in names:
+            raise UnknownName("camera", camera, names)
+        return camera or (names[0] if names else None)
+
+
+def _number(value: float | None) -> float:
+    """Return a value as a number; NaN if there is none."""
+    return float("nan") if value is None else float(value)
+
+
+def make_env(benchmark: str | Path, **options: Unpack[EnvOptions]) -> BenchmarkEnv:
+    """Make the environment of a benchmark file; the options are those of `BenchmarkEnv`."""
+    return BenchmarkEnv(benchmark, **options)

@@ -1,0 +1,203 @@
+"""Environments of benchmark files, held against Gymnasium's checks and against uwsim bench."""
+
+from __future__ import annotations
+
+import json
+import re
+import warnings
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.envs.registration import EnvSpec
+from gymnasium.utils.env_checker import check_env
+
+import uwsim
+from uwsim.envs import TASKS, BenchmarkEnv, make_env
+from uwsim.errors import BadSetting, BenchmarkError, UnknownName
+
+STATION = "uwsim.envs:uwsim/StationKeeping-v0"
+POLICY = '''
+import numpy as np
+
+
+class Policy:
+    """Pushes along the position error."""
+
+    def __init__(self):
+        self.layout = {}
+
+    def __call__(self, observation):
+        error = observation[self.layout["positionError"]] if self.layout else observation[:3]
+        return np.tanh(np.tile(error, 3)[:8])
+'''
+
+
+def actions_of(observation: np.ndarray) -> np.ndarray:
+    return np.tanh(np.tile(observation[:3], 3)[:8])
+
+
+def shorten(folder: Path, benchmark: str, interval: float = 0.5) -> str:
+    """Write a bundled benchmark with a shorter level; return its path."""
+    text = (Path(uwsim.__file__).parent / f"data/benchmarks/{benchmark}.xml").read_text()
+    path = folder / f"{benchmark}.xml"
+    pattern = "<interval>[0-9]+</interval>"
+    path.write_text(re.sub(pattern, f"<interval>{interval}</interval>", text))
+    return str(path)
+
+
+def rollout(env: BenchmarkEnv, seed: int, n: int) -> bytes:
+    observation, _ = env.reset(seed=seed)
+    parts = [observation.tobytes()]
+    env.action_space.seed(seed)
+    for _ in range(n):
+        observation, reward, *_ = env.step(env.action_space.sample())
+        parts += [observation.tobytes(), np.float64(reward).tobytes()]
+    return b"".join(parts)
+
+
+def test_gymnasium_finds_nothing_wrong_with_a_task(tmp_path: Path) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        env = gymnasium.make(STATION, benchmark=shorten(tmp_path, "station-keeping"))
+        check_env(env.unwrapped, skip_render_check=True)
+        env.close()
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_task_gives_finite_numbers(task: str, tmp_path: Path) -> None:
+    env = gymnasium.make(task, benchmark=shorten(tmp_path, TASKS[task]))
+    observation, _ = env.reset(seed=1)
+    for _ in range(10):
+        assert np.isfinite(observation).all()
+        observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+        assert np.isfinite(reward)
+    assert (terminated, truncated) == (False, True)
+    assert set(info["measures"]) == {"offset", "energy"}
+    env.close()
+
+
+def test_a_spec_rebuilds_its_environment_from_json() -> None:
+    env = gymnasium.make(STATION, period=0.1)
+    assert env.spec is not None
+    spec = EnvSpec.from_json(env.spec.to_json())
+    twin = gymnasium.make(spec)
+    assert twin.spec is not None
+    assert json.loads(twin.spec.to_json()) == json.loads(env.spec.to_json())
+    assert twin.unwrapped.metadata["render_fps"] == 10
+    env.close()
+    twin.close()
+
+
+def test_a_seed_repeats_an_episode_to_the_bit() -> None:
+    env, twin = make_env("station-keeping"), make_env("station-keeping")
+    first = rollout(env, 3, 20)
+    rollout(env, 4, 5)
+    assert rollout(env, 3, 20) == first == rollout(twin, 3, 20)
+    env.close()
+    twin.close()
+
+
+def test_the_measures_of_an_episode_are_those_of_the_benchmark(tmp_path: Path) -> None:
+    (tmp_path / "policy.py").write_text(POLICY)
+    benchmark = shorten(tmp_path, "station-keeping", 3.0)
+    result = uwsim.bench(
+        benchmark,
+        algorithm=f"{tmp_path / 'policy.py'}:Policy",
+        seeds=(5,),
+        levels={"current": [0.2]},
+    )
+    env = make_env(benchmark)
+    observation, info = env.reset(seed=5, options={"level": {"current": 0.2}})
+    is_over = False
+    while not is_over:
+        observation, _, terminated, truncated, info = env.step(actions_of(observation))
+        is_over = terminated or truncated
+    env.close()
+    names = [column.name for column in result.columns]
+    offset = result.rows[0][names.index("offset")]
+    assert info["measures"]["offset"] == pytest.approx(offset, rel=1e-12)
+    assert info["status"] == "ok"
+
+
+def test_rows_of_a_vector_are_single_environments() -> None:
+    envs = gymnasium.make_vec("uwsim/StationKeeping-v0", num_envs=2)
+    env = make_env("station-keeping")
+    observations, infos = envs.reset(seed=7)
+    actions = np.full((2, 8), 0.3, np.float32)
+    stepped, *_ = envs.step(actions)
+    for row in range(2):
+        observation, info = env.reset(seed=7 + row)
+        assert observation.tobytes() == observations[row].tobytes()
+        assert info["level"]["current"] == infos["level"]["current"][row]
+        assert env.step(actions[row])[0].tobytes() == stepped[row].tobytes()
+    env.close()
+    envs.close()
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+def test_a_row_is_reset_at_its_end(mode: str, tmp_path: Path) -> None:
+    envs = gymnasium.make_vec(
+        "uwsim/StationKeeping-v0",
+        num_envs=2,
+        benchmark=shorten(tmp_path, "station-keeping"),
+        autoreset_mode=mode,
+    )
+    envs.reset(seed=1)
+    actions = np.zeros((2, 8), np.float32)
+    for _ in range(10):
+        _, _, _, truncated, infos = envs.step(actions)
+    assert truncated.all()
+    assert ("final_info" in infos) == (mode == "SameStep")
+    final = infos["final_info"] if mode == "SameStep" else infos
+    assert final["_is_success"].all()
+    _, rewards, _, truncated, _ = envs.step(actions)
+    assert not truncated.any()
+    assert (rewards == 0.0).all() == (mode == "NextStep")
+    envs.close()
+
+
+def test_a_range_of_a_level_is_drawn_by_the_seed() -> None:
+    env = make_env("station-keeping")
+    options = {"level": {"current": (0.1, 0.2)}}
+    values = [env.reset(seed=s, options=options)[1]["level"]["current"] for s in (1, 2, 1)]
+    assert values[0] == values[2] != values[1]
+    assert all(0.1 <= value <= 0.2 for value in values)
+    env.close()
+
+
+def test_topics_are_observed_and_commanded() -> None:
+    env = make_env(
+        "station-keeping",
+        observation=["positionError", "/bluerov2/odom:pose.pose.position"],
+        action=["/bluerov2/twist:vx=0.5,vy=0.5"],
+        reward="-offset",
+    )
+    observation, _ = env.reset(seed=1)
+    assert env.layout == (("positionError", 3), ("/bluerov2/odom:pose.pose.position", 3))
+    assert env.action_space.shape == (2,)
+    observation, reward, *_ = env.step(np.ones(2, np.float32))
+    assert reward == pytest.approx(-float(np.linalg.norm(observation[:3])), abs=1e-9)
+    env.close()
+
+
+def test_mistakes_name_the_nearest_valid_name() -> None:
+    with pytest.raises(BadSetting, match="positionError"):
+        make_env("station-keeping", observation=["positionErrors"])
+    with pytest.raises(UnknownName, match="/bluerov2/thrusters"):
+        make_env("station-keeping", action=["/bluerov2/thruster"])
+    with pytest.raises(BadSetting, match="offset"):
+        make_env("station-keeping", reward="-ofset")
+    env = make_env("station-keeping")
+    with pytest.raises(BadSetting, match="current"):
+        env.reset(options={"level": {"curent": 0.1}})
+    env.close()
+
+
+def test_a_file_with_a_wrong_environment_has_the_line_of_its_error(tmp_path: Path) -> None:
+    text = (Path(uwsim.__file__).parent / "data/benchmarks/station-keeping.xml").read_text()
+    path = tmp_path / "wrong.xml"
+    path.write_text(text.replace("<reference>offset", "<reference>ofset"))
+    with pytest.raises(BenchmarkError, match=r"wrong\.xml:.*offset"):
+        make_env(path)
