@@ -41,7 +41,7 @@ class EnvOptions(TypedDict, total=False):
     camera: str | None
 
 
-class BenchmarkEnv(gymnasium.Env[Array, Action]):
+class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy skips gymnasium
     """The environment of a benchmark file with ``<u:environment>``.
 
     Args:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Unpack
 
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
-from .benchmark_env import BenchmarkEnv, EnvOptions
+from .benchmark_env import BenchmarkEnv
 
 
-class BenchmarkVectorEnv(SyncVectorEnv):
+class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
     """A vector of environments in this process.
 
     Row i after ``reset(seed=s)`` is the single environment after ``reset(seed=s + i)``, to the bit.
@@ -20,7 +20,7 @@ class BenchmarkVectorEnv(SyncVectorEnv):
         benchmark: a benchmark file or a bundled name.
         num_envs: the number of rows.
         autoreset_mode: ``NextStep`` (the default), ``SameStep`` or ``Disabled``.
-        options: the options of `BenchmarkEnv`.
+        observation: an option of `BenchmarkEnv`, as are the following.
     """
 
     def __init__(
@@ -29,12 +29,36 @@ class BenchmarkVectorEnv(SyncVectorEnv):
         num_envs: int = 1,
         *,
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
-        **options: Unpack[EnvOptions],
+        observation: Sequence[str] | None = None,
+        action: Sequence[str] | None = None,
+        reward: str | None = None,
+        success: str | None = None,
+        vehicle: str | None = None,
+        reference: str | None = None,
+        period: float | None = None,
+        settings: Mapping[str, float | str] | None = None,
+        data_path: Sequence[str | Path] = (),
+        render_mode: str | None = None,
+        camera: str | None = None,
     ) -> None:
-        make = partial(BenchmarkEnv, benchmark, **options)
+        make = partial(
+            BenchmarkEnv,
+            benchmark,
+            observation=observation,
+            action=action,
+            reward=reward,
+            success=success,
+            vehicle=vehicle,
+            reference=reference,
+            period=period,
+            settings=settings,
+            data_path=data_path,
+            render_mode=render_mode,
+            camera=camera,
+        )
         super().__init__([make] * num_envs, autoreset_mode=autoreset_mode)
 
     @property
     def stepper(self) -> str:
         """The stepper of the rows, and the reason for it."""
-        return str(self.envs[0].unwrapped.stepper)  # type: ignore[attr-defined]
+        return str(self.envs[0].unwrapped.stepper)
