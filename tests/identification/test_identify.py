@@ -128,3 +128,12 @@ def test_intervals_cover_the_truth_in_several_runs() -> None:
     is_covered = np.array([row.is_covered for row in rows])
     assert ((np.abs(errors) <= CLOSE) | is_covered).mean() >= 0.9
     assert is_covered.mean() >= 0.8
+
+
+def test_coefficients_of_a_vehicle_at_rest_are_not_determined() -> None:
+    """Simulate one of the logs of ``benchmarks/identification.py --motion rest``."""
+    from benchmarks.identification import cover_idle
+
+    flags = cover_idle("bluerov2_heavy", 3, "rest")
+    assert set(flags) <= {"buoyancy"}
+    assert all(flags.values())
