@@ -112,6 +112,7 @@ def _old_names() -> str:
 
 def benchmark_page() -> str:
     """Return ``docs/benchmark-dialect.md``."""
+    from uwsim.benchmark.environment import ActionSpec, EnvironmentSpec, TopicFieldSpec
     from uwsim.benchmark.ground_truth import GROUND_TRUTHS
     from uwsim.benchmark.measures import MEASURES
     from uwsim.benchmark.spec import BenchmarkSpec, FunctionSpec
@@ -127,6 +128,9 @@ def benchmark_page() -> str:
     homes = {cls: f"dialect.md{home}" for cls, home in _scene_homes().items()}
     parts = [BENCHMARK_HEAD, _section("benchmark", BenchmarkSpec, homes=homes)]
     parts.append(_section("function", FunctionSpec))
+    parts.append(_section("u:environment", EnvironmentSpec))
+    parts.append(_section("topicField", TopicFieldSpec))
+    parts.append(_section("action", ActionSpec))
     for title, form, table in families:
         parts.append(f"## {title}\n")
         for name, cls in table.items():
