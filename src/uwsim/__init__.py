@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .api import bench, check, compare, gap, load, read_result
     from .base.geometry import Pose
     from .bus import Algorithm, Node
+    from .envs.make import make_env
     from .errors import UwsimError
     from .rendering.rendered_image import PixelBox, RenderedImage
     from .results.result import Result
@@ -48,6 +49,7 @@ __all__ = [
     "compare",
     "gap",
     "load",
+    "make_env",
     "messages",
     "read_result",
 ]
@@ -69,6 +71,7 @@ _MODULES = {
     "compare": "api",
     "gap": "api",
     "load": "api",
+    "make_env": "envs.make",
     "read_result": "api",
 }
 """The module that defines each public name."""

@@ -59,25 +59,25 @@ class TrajectorySpec(Spec):
             return [f"<rise> is that of a helix, and the <shape> is {self.shape}"]
         return []
 
-    def position(self, time: float) -> Array:
-        """Return the position at a time [s], in L, (3,) [m]."""
-        centre = np.array(self.centre)
+    def position(self, time: float | Array) -> Array:
+        """Return the position at a time [s], in L, (3,) [m]; rows of them for times (n,)."""
         if self.shape == "point":
-            return centre
-        phase = 2.0 * math.pi * time / self.period
-        cosine, sine = float(np.cos(phase)), float(np.sin(phase))
+            return np.array(self.centre) + np.zeros((*np.shape(time), 3))
+        phase = 2.0 * math.pi * np.asarray(time) / self.period
+        cosine, sine = np.cos(phase), np.sin(phase)
         breadth = sine * cosine if self.shape == "lemniscate" else sine
-        offset = [self.radius * cosine, self.radius * breadth, self.rise * time / self.period]
-        position: Array = centre + offset
+        climb = self.rise * np.asarray(time) / self.period
+        offset = np.stack([self.radius * cosine, self.radius * breadth, climb], axis=-1)
+        position: Array = np.array(self.centre) + offset
         return position
 
-    def velocity(self, time: float) -> Array:
-        """Return the velocity at a time [s], in L, (3,) [m/s]."""
+    def velocity(self, time: float | Array) -> Array:
+        """Return the velocity at a time [s], in L, (3,) [m/s]; rows of them for times (n,)."""
         if self.shape == "point":
-            return np.zeros(3)
+            return np.zeros((*np.shape(time), 3))
         rate = 2.0 * math.pi / self.period
-        phase = rate * time
-        cosine, sine = float(np.cos(phase)), float(np.sin(phase))
+        phase = rate * np.asarray(time)
+        cosine, sine = np.cos(phase), np.sin(phase)
         breadth = cosine * cosine - sine * sine if self.shape == "lemniscate" else cosine
-        speed = self.radius * rate
-        return np.array([-speed * sine, speed * breadth, self.rise / self.period])
+        speed, climb = self.radius * rate, np.full(np.shape(time), self.rise / self.period)
+        return np.stack([-speed * sine, speed * breadth, climb], axis=-1)

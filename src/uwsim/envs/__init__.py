@@ -16,12 +16,15 @@ from __future__ import annotations
 
 import importlib.util
 
-__all__: list[str] = []
+from .make import make_env
+
+__all__ = ["make_env"]
 
 if importlib.util.find_spec("gymnasium") is not None:
-    from .benchmark_env import BenchmarkEnv, make_env
+    from .benchmark_env import BenchmarkEnv
     from .registration import TASKS, register_tasks
+    from .row_vector_env import RowVectorEnv
     from .vector_env import BenchmarkVectorEnv
 
     register_tasks()
-    __all__ += ["TASKS", "BenchmarkEnv", "BenchmarkVectorEnv", "make_env", "register_tasks"]
+    __all__ += ["TASKS", "BenchmarkEnv", "BenchmarkVectorEnv", "RowVectorEnv", "register_tasks"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypedDict, Unpack
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -23,22 +23,6 @@ from .task import EnvironmentOptions, make_task
 MAX_SEED = 2**31 - 1
 """The greatest seed that an environment draws for an episode without a seed."""
 Action = npt.NDArray[np.float32]
-
-
-class EnvOptions(TypedDict, total=False):
-    """The options of an environment; `BenchmarkEnv` describes them."""
-
-    observation: Sequence[str] | None
-    action: Sequence[str] | None
-    reward: str | None
-    success: str | None
-    vehicle: str | None
-    reference: str | None
-    period: float | None
-    settings: Mapping[str, float | str] | None
-    data_path: Sequence[str | Path]
-    render_mode: str | None
-    camera: str | None
 
 
 class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy skips gymnasium
@@ -213,8 +197,3 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
 def _number(value: float | None) -> float:
     """Return a value as a number; NaN if there is none."""
     return float("nan") if value is None else float(value)
-
-
-def make_env(benchmark: str | Path, **options: Unpack[EnvOptions]) -> BenchmarkEnv:
-    """Make the environment of a benchmark file; the options are those of `BenchmarkEnv`."""
-    return BenchmarkEnv(benchmark, **options)

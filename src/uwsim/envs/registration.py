@@ -23,6 +23,6 @@ def register_tasks() -> None:
             gymnasium.register(
                 name,
                 entry_point="uwsim.envs.benchmark_env:BenchmarkEnv",
-                vector_entry_point="uwsim.envs.vector_env:BenchmarkVectorEnv",
+                vector_entry_point="uwsim.envs.vector_env:make_vector_env",
                 kwargs={"benchmark": benchmark},
             )

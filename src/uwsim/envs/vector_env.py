@@ -5,10 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
+from typing import Literal, Unpack
 
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
+from ..errors import BadSetting
 from .benchmark_env import BenchmarkEnv
+from .make import EnvOptions
+from .row_vector_env import RowVectorEnv
+from .task import EnvironmentOptions, make_task
+
+STEPPERS = ("engine", "rows")
+"""The steppers of a vector."""
 
 
 class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
@@ -62,3 +70,45 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
     def stepper(self) -> str:
         """The stepper of the rows, and the reason for it."""
         return str(self.envs[0].unwrapped.stepper)
+
+
+def make_vector_env(
+    benchmark: str | Path,
+    num_envs: int = 1,
+    *,
+    stepper: Literal["engine", "rows"] = "engine",
+    threads: int = 1,
+    autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+    **options: Unpack[EnvOptions],
+) -> BenchmarkVectorEnv | RowVectorEnv:
+    """Make a vector of environments of a benchmark file.
+
+    Args:
+        benchmark: a benchmark file or a bundled name.
+        num_envs: the number of rows.
+        stepper: ``engine`` for episodes that are trials of the benchmark, or ``rows`` for compiled
+            rows of free vehicles, several hundred times as fast.
+        threads: the number of threads of ``rows``; it has no effect on the results.
+        autoreset_mode: ``NextStep`` (the default), ``SameStep`` or ``Disabled``.
+        options: the options of `BenchmarkEnv`.
+
+    Raises:
+        BadSetting: rows cannot step the environment; the message has the reasons.
+        UwsimError: a file, a name or an option is invalid.
+    """
+    if stepper not in STEPPERS:
+        raise BadSetting(f"stepper is {stepper!r}; expected one of {', '.join(STEPPERS)}.")
+    if stepper == "engine":
+        return BenchmarkVectorEnv(benchmark, num_envs, autoreset_mode=autoreset_mode, **options)
+    settings, data_path = options.get("settings"), options.get("data_path", ())
+    parts = EnvironmentOptions(
+        observation=options.get("observation"),
+        action=options.get("action"),
+        reward=options.get("reward"),
+        success=options.get("success"),
+        vehicle=options.get("vehicle"),
+        reference=options.get("reference"),
+        period=options.get("period"),
+    )
+    plan = make_task(benchmark, parts, settings=settings or {}, data_path=data_path)
+    return RowVectorEnv(plan, num_envs, threads=threads, autoreset_mode=autoreset_mode)

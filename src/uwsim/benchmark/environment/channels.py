@@ -24,8 +24,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...base.geometry import Array, Pose
-from ...base.numerics.linear import rotate_back
+from ...base.geometry import Array
+from ...base.numerics.linear import rotate
 from ...world import World
 from ..reference_trajectory import TrajectorySpec
 
@@ -35,17 +35,24 @@ DOWN = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True, eq=False)
 class VehicleState:
-    """The state of a vehicle at one time, from which the quantities follow."""
+    """The state of a vehicle at one time, from which the quantities follow.
 
-    localized_from_base: Pose
-    """The pose of the base in L."""
-    world_from_base: Pose
-    """The pose of the base in W."""
+    The arrays may have a first axis of rows, one for each of several vehicles.
+    """
+
+    position: Array
+    """The position of the base in L, (3,) [m]."""
+    localized_from_base: Array
+    """The rotation from the base to L, (3, 3)."""
+    world_from_base: Array
+    """The rotation from the base to W, (3, 3)."""
     twist: Array
     """The velocity over ground and the angular velocity, in base axes, (6,) [m/s, rad/s]."""
-    trajectory: TrajectorySpec | None
-    """The desired position at each time; None without a reference."""
-    time: float
+    reference_position: Array
+    """The desired position in L, (3,) [m]; NaN without a reference."""
+    reference_motion: Array
+    """The velocity of the desired position in L, (3,) [m/s]; NaN without a reference."""
+    time: float | Array
     """The simulation time [s]."""
     last_action: Array
     """The last action (n,)."""
@@ -56,33 +63,42 @@ class VehicleState:
     ) -> VehicleState:
         """Read the present state of a vehicle."""
         world_from_base = world.body(vehicle).world_from_body
+        localized_from_world = world.world_from_localized.inverse()
+        no_reference = np.full(3, np.nan)
+        time = world.time
         return VehicleState(
-            localized_from_base=world.world_from_localized.inverse() @ world_from_base,
-            world_from_base=world_from_base,
+            position=rotate(localized_from_world.rotation, world_from_base.position)
+            + localized_from_world.position,
+            localized_from_base=(localized_from_world @ world_from_base).rotation,
+            world_from_base=world_from_base.rotation,
             twist=world.twist(vehicle),
-            trajectory=trajectory,
-            time=world.time,
+            reference_position=no_reference if trajectory is None else trajectory.position(time),
+            reference_motion=no_reference if trajectory is None else trajectory.velocity(time),
+            time=time,
             last_action=last_action,
         )
 
     @property
     def position_error(self) -> Array:
         """The desired position in base axes, (3,) [m]."""
-        assert self.trajectory is not None
-        pose = self.localized_from_base
-        return rotate_back(pose.rotation, self.trajectory.position(self.time) - pose.position)
+        return to_base(self.localized_from_base, self.reference_position - self.position)
 
     @property
     def reference_velocity(self) -> Array:
         """The velocity of the desired position in base axes, (3,) [m/s]."""
-        assert self.trajectory is not None
-        velocity = self.trajectory.velocity(self.time)
-        return rotate_back(self.localized_from_base.rotation, velocity)
+        return to_base(self.localized_from_base, self.reference_motion)
 
     @property
     def gravity(self) -> Array:
         """The direction of gravity in base axes, (3,) [1]."""
-        return rotate_back(self.world_from_base.rotation, DOWN)
+        return to_base(self.world_from_base, DOWN)
+
+
+def to_base(rotation: Array, vector: Array) -> Array:
+    """Return ``rotation.T @ vector``, for (3, 3) and (3,), or for rows of them."""
+    x, y, z = vector[..., 0, None], vector[..., 1, None], vector[..., 2, None]
+    result: Array = rotation[..., 0, :] * x + rotation[..., 1, :] * y + rotation[..., 2, :] * z
+    return result
 
 
 Read = Callable[[VehicleState], Array]
@@ -90,11 +106,11 @@ Read = Callable[[VehicleState], Array]
 CHANNELS: dict[str, tuple[int | None, Read]] = {
     "positionError": (3, lambda state: state.position_error),
     "referenceVelocity": (3, lambda state: state.reference_velocity),
-    "position": (3, lambda state: state.localized_from_base.position),
-    "heading": (2, lambda state: state.localized_from_base.rotation[:2, 0]),
+    "position": (3, lambda state: state.position),
+    "heading": (2, lambda state: state.localized_from_base[..., :2, 0]),
     "gravity": (3, lambda state: state.gravity),
-    "linearVelocity": (3, lambda state: state.twist[:3]),
-    "angularVelocity": (3, lambda state: state.twist[3:]),
+    "linearVelocity": (3, lambda state: state.twist[..., :3]),
+    "angularVelocity": (3, lambda state: state.twist[..., 3:]),
     "lastAction": (None, lambda state: state.last_action),
 }
 """The size and the function of each quantity; None: the size of an action."""

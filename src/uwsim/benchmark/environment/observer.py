@@ -17,6 +17,12 @@ MAX_OBSERVATION = 1e6
 """The bound to which the numbers of an observation are limited."""
 
 
+def limit_numbers(parts: Sequence[Array]) -> Array:
+    """Return the parts of an observation as one vector, limited to `MAX_OBSERVATION`."""
+    numbers: Array = np.clip(np.concatenate(parts, axis=-1), -MAX_OBSERVATION, MAX_OBSERVATION)
+    return numbers
+
+
 class Observer:
     """The reader of an environment's observation.
 
@@ -56,10 +62,11 @@ class Observer:
     def read(self, last_action: Array) -> Array:
         """Return the present observation, limited to `MAX_OBSERVATION`, (size,)."""
         state = self.state(last_action)
-        parts = [read(state) for _, read in self._channels]
-        parts += [field.read() for field in self._fields]
-        limited_values: Array = np.clip(np.concatenate(parts), -MAX_OBSERVATION, MAX_OBSERVATION)
-        return limited_values
+        return limit_numbers([*self.read_channels(state), *(f.read() for f in self._fields)])
+
+    def read_channels(self, state: VehicleState) -> list[Array]:
+        """Return the numbers of the observed quantities of a state, or of rows of states."""
+        return [read(state) for _, read in self._channels]
 
     def close(self) -> None:
         """End the subscriptions."""

@@ -19,12 +19,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from ...base.expression import parse
 from ...base.geometry import Array
 from ...base.numerics import elementwise
-from ...base.numerics.linear import length
 from ..measures import Measure
+from .array_expression import evaluate_rows
 from .channels import VehicleState
 
 REWARD_NAMES = ("effort", "change", "speed", "turnRate", "tilt", "time")
@@ -32,7 +33,7 @@ REWARD_NAMES = ("effort", "change", "speed", "turnRate", "tilt", "time")
 
 
 class RewardFunction:
-    """The reward of an environment.
+    """The reward of an environment, of one vehicle or of rows of them.
 
     Args:
         text: the expression.
@@ -42,8 +43,13 @@ class RewardFunction:
 
     def __init__(self, text: str, measures: Sequence[str], state: VehicleState) -> None:
         self._expression = parse(text, [*measures, *REWARD_NAMES])
-        self._names = set(self._expression.names)
+        self.names = frozenset(self._expression.names)
+        """The names in the expression."""
         self._up = state.gravity
+
+    def restart(self, rows: npt.NDArray[np.bool_], state: VehicleState) -> None:
+        """Begin new episodes of some rows, (n,), in the present state of all rows."""
+        self._up = np.where(rows[:, None], state.gravity, self._up)
 
     def compute(self, measures: Mapping[str, Measure], state: VehicleState, action: Array) -> float:
         """Compute the reward of a step.
@@ -56,21 +62,46 @@ class RewardFunction:
         values: dict[str, float | None] = {
             name: _newest_sample(measure) for name, measure in measures.items()
         }
-        change = action - state.last_action
-        values |= {
-            "effort": float(np.mean(action * action)),
-            "change": float(np.mean(change * change)),
-            "speed": length(state.twist[:3]),
-            "turnRate": length(state.twist[3:]),
-            "time": state.time,
-        }
-        if "tilt" in self._names:
-            cosine = float(np.sum(self._up * state.gravity))
-            values["tilt"] = float(elementwise.arccos(min(1.0, max(-1.0, cosine))))
-        for name in self._names:
+        numbers = self._state_numbers(state, action)
+        values |= {name: float(number) for name, number in numbers.items()}
+        for name in self.names:
             values.setdefault(name, None)
         value = self._expression.evaluate(values)
         return 0.0 if value is None else value
+
+    def compute_rows(
+        self, samples: Mapping[str, Array], state: VehicleState, actions: Array
+    ) -> Array:
+        """Compute the rewards of a step of rows, (n,).
+
+        Args:
+            samples: the newest samples of the measures by name, (n,) each.
+            state: the states of the rows after the step, with the actions before these.
+            actions: the actions of the step, (n, a).
+        """
+        numbers = {**samples, **self._state_numbers(state, actions)}
+        return evaluate_rows(self._expression, numbers, len(actions))
+
+    def _state_numbers(self, state: VehicleState, action: Array) -> dict[str, Array]:
+        """Return the numbers of `REWARD_NAMES` that the expression uses."""
+        change = action - state.last_action
+        numbers: dict[str, Array] = {
+            "effort": np.mean(action * action, axis=-1),
+            "change": np.mean(change * change, axis=-1),
+            "speed": magnitude(state.twist[..., :3]),
+            "turnRate": magnitude(state.twist[..., 3:]),
+            "time": np.asarray(state.time, dtype=np.float64),
+        }
+        if "tilt" in self.names:
+            cosine = np.sum(self._up * state.gravity, axis=-1)
+            numbers["tilt"] = elementwise.arccos(np.clip(cosine, -1.0, 1.0))
+        return {name: number for name, number in numbers.items() if name in self.names}
+
+
+def magnitude(vector: Array) -> Array:
+    """Return the length of a vector (3,), or of rows of them."""
+    result: Array = np.sqrt(np.sum(vector * vector, axis=-1))
+    return result
 
 
 def _newest_sample(measure: Measure) -> float | None:

@@ -1,0 +1,48 @@
+"""``uwsim.make_env``: the environment of any benchmark file."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, TypedDict, Unpack
+
+from ..errors import MissingExtra
+
+if TYPE_CHECKING:
+    from .benchmark_env import BenchmarkEnv
+
+
+class EnvOptions(TypedDict, total=False):
+    """The options of an environment; `BenchmarkEnv` describes them."""
+
+    observation: Sequence[str] | None
+    action: Sequence[str] | None
+    reward: str | None
+    success: str | None
+    vehicle: str | None
+    reference: str | None
+    period: float | None
+    settings: Mapping[str, float | str] | None
+    data_path: Sequence[str | Path]
+    render_mode: str | None
+    camera: str | None
+
+
+def make_env(benchmark: str | Path, **options: Unpack[EnvOptions]) -> BenchmarkEnv:
+    """Make the Gymnasium environment of a benchmark file.
+
+    Args:
+        benchmark: a benchmark file or a bundled name; with ``observation`` and ``action`` it needs
+            no ``<u:environment>``.
+        options: the options of `uwsim.envs.BenchmarkEnv`.
+
+    Raises:
+        MissingExtra: Gymnasium is not installed.
+        UwsimError: a file, a name or an option is invalid.
+    """
+    if importlib.util.find_spec("gymnasium") is None:
+        raise MissingExtra("Environments need Gymnasium: pip install 'uwsim[envs]'.")
+    from .benchmark_env import BenchmarkEnv
+
+    return BenchmarkEnv(benchmark, **options)
