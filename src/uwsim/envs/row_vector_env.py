@@ -89,7 +89,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
         self._levels: dict[str, Array] = {}
         self._last_actions = np.zeros((num_envs, n_actions))
         self._square_sums = np.zeros(num_envs)  # of the distance over the episode [m2]
-        self._ended = np.ones(num_envs, np.bool_)
+        self._rows_to_reset = np.ones(num_envs, np.bool_)
         names = [measure.name for measure in plan.benchmark.measures]
         self._reward = RewardFunction(task.spec.reward, names, self._state())
 
@@ -131,7 +131,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
                 f"The actions have the shape {values.shape}; expected {self._last_actions.shape}, "
                 "finite numbers."
             )
-        resets = self._ended.copy()
+        resets = self._rows_to_reset.copy()
         if self._mode is AutoresetMode.DISABLED and resets.any():
             raise BadSetting("An episode is over; call reset(options={'reset_mask': ...}) first.")
         infos: dict[str, Any] = {}
@@ -142,7 +142,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
         self._rows.step(values, mask=steps)
         rewards = self._score(values, steps)
         truncated = self._rows.truncated & steps
-        self._ended = truncated.copy()
+        self._rows_to_reset = truncated.copy()
         observations = self._observe()
         if truncated.any():
             infos = self._end(infos, observations, truncated)
@@ -178,7 +178,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
             self._rows.states[i, :3], self._rows.states[i, 3:7] = position, attitude
             self._rows.arrays.water[i, :, :3] = current
         self._last_actions[mask], self._square_sums[mask] = 0.0, 0.0
-        self._ended[mask] = False
+        self._rows_to_reset[mask] = False
         if hasattr(self, "_reward"):
             self._reward.restart(mask, self._state())
 
