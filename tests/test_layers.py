@@ -89,6 +89,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "scenarios": (
         TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "virtual_sensors", "scenarios"}
     ),
+    "editing": TASKS | ENGINES | {"checks", "editing"},
     "envs": TASKS | ENGINES | {"checks", "runs", "viewer", "envs"},
     "manoeuvres": TASKS | ENGINES | {"analysis", "manoeuvres"},
     "datasets": (TASKS | ENGINES | {"runs", "analysis", "middleware", "viewer", "datasets"}),
@@ -114,6 +115,7 @@ MAY_IMPORT: dict[str, set[str]] = {
             "manoeuvres",
             "scenarios",
             "datasets",
+            "editing",
             "viewer",
             "cli",
         }

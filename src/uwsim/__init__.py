@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .api import bench, check, compare, gap, load, read_result
     from .base.geometry import Pose
     from .bus import Algorithm, Node
+    from .editing import Benchmark, Scene, read_benchmark, read_scene
     from .envs.make import make_env
     from .errors import UwsimError
     from .rendering.rendered_image import PixelBox, RenderedImage
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Algorithm",
+    "Benchmark",
     "Node",
     "OrientedBox",
     "PixelBox",
@@ -40,6 +42,7 @@ __all__ = [
     "RenderedImage",
     "Replay",
     "Result",
+    "Scene",
     "Simulation",
     "State",
     "UwsimError",
@@ -51,11 +54,14 @@ __all__ = [
     "load",
     "make_env",
     "messages",
+    "read_benchmark",
     "read_result",
+    "read_scene",
 ]
 
 _MODULES = {
     "Algorithm": "bus",
+    "Benchmark": "editing",
     "Node": "bus",
     "OrientedBox": "simulation.access.boxes",
     "PixelBox": "rendering.rendered_image",
@@ -63,6 +69,7 @@ _MODULES = {
     "Pose": "base.geometry",
     "Replay": "viewer.replay",
     "Result": "results.result",
+    "Scene": "editing",
     "Simulation": "simulation",
     "State": "simulation.state.state",
     "UwsimError": "errors",
@@ -72,7 +79,9 @@ _MODULES = {
     "gap": "api",
     "load": "api",
     "make_env": "envs.make",
+    "read_benchmark": "editing",
     "read_result": "api",
+    "read_scene": "editing",
 }
 """The module that defines each public name."""
 

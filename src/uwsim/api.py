@@ -22,6 +22,8 @@ from .world import TIMESTEP
 if TYPE_CHECKING:
     from .analysis.comparison.model import Comparison
     from .bus import Algorithm
+    from .editing import Benchmark, Scene
+    from .editing.run_files import RunFiles
     from .logs import VehicleLog
     from .reality_gap import Gap
     from .results.result import Result
@@ -35,7 +37,7 @@ OnProgress = Callable[[int, int], object]
 
 
 def load(
-    scene: str | Path | SceneSpec,
+    scene: str | Path | Scene | SceneSpec,
     *,
     seed: int = 0,
     timestep: float = TIMESTEP,
@@ -47,7 +49,7 @@ def load(
     """Open a scene at step 0; the first `advance` publishes the first messages.
 
     Args:
-        scene: a scene file, a bundled name (``uwsim list scenes``), or the spec of `read_scene`.
+        scene: a scene file, a bundled name (``uwsim list scenes``), a `Scene`, or its spec.
         seed: the seed of all random streams, and of the variations of the scene (``<u:vary>``).
         timestep: the length of a physics step [s].
         settings: values of the scene to change, as ``--set`` names them:
@@ -65,6 +67,7 @@ def load(
     from .physics.compile_scene import compile_scene
     from .scene.reader import read_scene
     from .scene.settings import apply_setting, xacro_arguments
+    from .scene.spec import SceneSpec
     from .simulation import Simulation
     from .simulation.access.arguments import check_seed
 
@@ -74,6 +77,8 @@ def load(
         arguments = xacro_arguments(settings.items())
         path_of_scene = scene_file(str(scene), folders)
         scene = read_scene(path_of_scene, data_path=folders, arguments=arguments)
+    elif not isinstance(scene, SceneSpec):
+        scene = scene.checked_spec()
     for path, value in settings.items():
         scene = apply_setting(scene, path, str(value))
     model = compile_scene(
@@ -83,9 +88,9 @@ def load(
 
 
 def bench(
-    benchmark: str | Path,
+    benchmark: str | Path | Benchmark,
     *,
-    scene: str | Path | None = None,
+    scene: str | Path | Scene | None = None,
     algorithm: str | type[Algorithm] | None = None,
     seeds: Sequence[int] = (0,),
     levels: Mapping[str, Sequence[float]] | None = None,
@@ -103,8 +108,9 @@ def bench(
     Python code that they name, are printed on standard error.
 
     Args:
-        benchmark: a benchmark file or a bundled name.
-        scene: the scene; None: the scene that the benchmark names.
+        benchmark: a benchmark file, a bundled name, or a `Benchmark`.
+        scene: the scene; None: the scene that the benchmark names. A `Benchmark` or a `Scene` is
+            written as a file, which ``out`` keeps in its folder ``inputs``.
         algorithm: a name (``uwsim list algorithms``), ``module:Class``, or a class; a class runs in
             the process of the simulation, as with ``--in-process``.
         seeds: the seeds of the repeats; consecutive, such as ``range(6)``.
@@ -124,6 +130,7 @@ def bench(
         UwsimError: an input is invalid, or a run failed as in the command; also if a simulation
             failed, or the algorithm failed in every row. Finished rows remain in ``out``.
     """
+    from .editing.run_files import write_run_files
     from .runs.planning.plan_request import PlanRequest
 
     name, algorithm_class = _name_and_class(algorithm)
@@ -132,26 +139,34 @@ def bench(
     if on_progress is not None and not callable(on_progress):
         raise BadSetting(f"on_progress={short_repr(on_progress)}: expected a function, or None.")
     first_seed = _first_seed(seeds)
-    request = PlanRequest(
-        benchmark=str(benchmark),
-        scene=None if scene is None else str(scene),
-        algorithm=name,
-        algorithm_class=algorithm_class,
-        in_process=algorithm_class is not None,
-        seed=first_seed,
-        repeat=len(seeds),
-        levels=_pairs_of({} if levels is None else levels),
-        settings=[f"{path}={value}" for path, value in _checked_settings(settings).items()],
-        data_path=_folders_of(data_path),
-    )
-    return _execute_request(request, workers, out, on_progress)
+    with tempfile.TemporaryDirectory(prefix="uwsim-") as folder:
+        files = write_run_files(benchmark, scene, Path(folder))
+        request = PlanRequest(
+            benchmark=files.benchmark,
+            scene=files.scene,
+            algorithm=name,
+            algorithm_class=algorithm_class,
+            in_process=algorithm_class is not None,
+            seed=first_seed,
+            repeat=len(seeds),
+            levels=_pairs_of({} if levels is None else levels),
+            settings=[f"{path}={value}" for path, value in _checked_settings(settings).items()],
+            data_path=(*_folders_of(data_path), *files.folders),
+            plugins=files.plugins,
+        )
+        return _execute_request(request, files, workers, out, on_progress)
 
 
 def _execute_request(
-    request: PlanRequest, workers: int, out: str | Path | None, on_progress: OnProgress | None
+    request: PlanRequest,
+    files: RunFiles,
+    workers: int,
+    out: str | Path | None,
+    on_progress: OnProgress | None,
 ) -> Result:
     """Run a request in the directory ``out``, or in a temporary one that is removed."""
     from .analysis.load_reporter import load_reporter
+    from .editing.run_files import keep_run_files
     from .results.directory import check as check_directory
     from .results.directory import prepare_directory
     from .runs.execute import Callbacks, execute, plan_all, prepare_execution
@@ -169,7 +184,9 @@ def _execute_request(
         open_runner = partial(BackgroundProcess if workers else JobRunner, load_reporter)
         (result,) = execute(
             execution,
-            prepare_directory(directory, resume=False, overwrite=False),
+            keep_run_files(
+                prepare_directory(directory, resume=False, overwrite=False), directory, files
+            ),
             None if out is None else open_runner,
             Callbacks(progress=partial(_count_levels, on_progress)),
         )

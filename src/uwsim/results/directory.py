@@ -17,23 +17,26 @@ from .provenance import load_provenance
 
 CONTROL_FOLDER = "control"
 """The folder of the result of the control run."""
+INPUTS_FOLDER = "inputs"
+"""The folder of the scene and the benchmark that a Python program has made for the run."""
 REPORT = "report.html"
 """The page with the report of a result."""
 REPLAY = "replay.html"
 """The page that replays the trials; ``uwsim replay`` writes it."""
 FILE_NAMES = re.compile(
-    r"""(?x) ((?!units/|plots/|pictures/)[^/]+/)? (control/)? (
+    r"""(?x) ((?!units/|plots/|pictures/|inputs/)[^/]+/)? (control/)? (
         result\.json | measures\.json | result\.dat | summary\.csv | provenance\.json
       | report\.html | replay\.html
       | measure-[^/]+\.csv | benchmark-[^/]+\.data
       | units/\d+\.(jsonl|motion|inputs|part)
       | plots/[^/]+\.(png|pdf)
       | pictures/\d+-[^/]+\.png(\.part)?
+      | inputs/[^/]+\.xml
     )"""
 )
 """The paths of the files that uwsim writes into a result directory, or into its subfolder for each
 algorithm; each file may have drafts next to it."""
-FOLDERS = (journal.FOLDER, "plots", "pictures", CONTROL_FOLDER)
+FOLDERS = (journal.FOLDER, "plots", "pictures", CONTROL_FOLDER, INPUTS_FOLDER)
 
 
 @contextmanager

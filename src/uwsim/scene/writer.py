@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from lxml import etree
-
 from ..schema import write
+from ..schema.layout import lay_out
 from .reader import ROOT
 from .spec import SceneSpec
 
@@ -14,6 +13,4 @@ def write_scene(scene: SceneSpec) -> str:
 
     The text has no DOCTYPE, which only the original UWSim needs.
     """
-    root = write(scene, ROOT)
-    etree.indent(root)
-    return f'<?xml version="1.0"?>\n{etree.tostring(root, encoding="unicode")}\n'
+    return lay_out(write(scene, ROOT))

@@ -47,7 +47,7 @@ from .names import NAMESPACE, advice, format_tag, quote
 from .reading import read, read_choice, read_text
 from .source_line import SourceLine, Spec, line_of, source_line
 from .values import TOKENS, parse_number
-from .writing import uses_extensions, write
+from .writing import fill_element, uses_extensions, write, write_value
 
 __all__ = [
     "CLAMPED_NUMBER",
@@ -77,6 +77,7 @@ __all__ = [
     "element",
     "field_docs",
     "fields_of",
+    "fill_element",
     "format_tag",
     "line_of",
     "parse",
@@ -88,4 +89,5 @@ __all__ = [
     "source_line",
     "uses_extensions",
     "write",
+    "write_value",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from lxml import etree
@@ -15,7 +15,7 @@ from .names import NAMESPACE
 def write(spec: object, tag: str) -> etree._Element:
     """Write a spec as an element without the fields that equal their default."""
     node = etree.Element(tag, nsmap={"u": NAMESPACE} if uses_extensions(spec) else None)
-    _fill(node, spec)
+    fill_element(node, spec)
     return node
 
 
@@ -32,28 +32,48 @@ def uses_extensions(spec: object) -> bool:
     )  # fmt: skip
 
 
-def _fill(node: etree._Element, spec: object) -> None:
+def fill_element(
+    node: etree._Element,
+    spec: object,
+    write_manual: Callable[[etree._Element, Field, Any], None] | None = None,
+) -> None:
+    """Write the fields of a spec that differ from their defaults into an element.
+
+    Args:
+        node: the element.
+        spec: the spec.
+        write_manual: the function that writes fields of the kind ``manual``, which the schema
+            cannot read or write by itself.
+    """
     for field in fields_of(type(spec)):
         value = field.value_in(spec)
         if value is None or (value == field.default and not field.xml.original.is_required):
             continue
-        if field.xml.attribute:
-            node.set(field.tag, _text(value, attribute=True))
-        elif field.xml.text:
-            node.text = _text(value)
-        elif field.kind == "choice":
-            parent = etree.SubElement(node, field.tag)
-            names = {cls: name for name, cls in field.type.items()}
-            for item in value:
-                _fill(etree.SubElement(parent, names[type(item)]), item)
-        elif field.kind == "list":
-            for items in value:
-                _write_items(etree.SubElement(node, field.tag), field, items)
-        elif field.is_repeated and field.xml.item:
-            _write_items(etree.SubElement(node, field.tag), field, value)
-        else:
-            for item in value if field.is_repeated else (value,):
-                _write_one(etree.SubElement(node, field.tag), field, item)
+        if field.kind == "manual" and write_manual is not None:
+            write_manual(node, field, value)
+            continue
+        write_value(node, field, value)
+
+
+def write_value(node: etree._Element, field: Field, value: Any) -> None:
+    """Write the value of a field, other than None, into the element of its spec."""
+    if field.xml.attribute:
+        node.set(field.tag, _text(value, attribute=True))
+    elif field.xml.text:
+        node.text = _text(value)
+    elif field.kind == "choice":
+        parent = etree.SubElement(node, field.tag)
+        names = {cls: name for name, cls in field.type.items()}
+        for item in value:
+            fill_element(etree.SubElement(parent, names[type(item)]), item)
+    elif field.kind == "list":
+        for items in value:
+            _write_items(etree.SubElement(node, field.tag), field, items)
+    elif field.is_repeated and field.xml.item:
+        _write_items(etree.SubElement(node, field.tag), field, value)
+    else:
+        for item in value if field.is_repeated else (value,):
+            _write_one(etree.SubElement(node, field.tag), field, item)
 
 
 def _write_items(node: etree._Element, field: Field, items: Iterable[Any]) -> None:
@@ -64,7 +84,7 @@ def _write_items(node: etree._Element, field: Field, items: Iterable[Any]) -> No
 
 def _write_one(node: etree._Element, field: Field, value: Any) -> None:
     if field.kind == "spec":
-        _fill(node, value)
+        fill_element(node, value)
     elif field.kind == "triple" and not isinstance(value, str):
         for part, part_value in zip(field.xml.parts, value, strict=True):
             etree.SubElement(node, part).text = _text(part_value)
@@ -73,8 +93,8 @@ def _write_one(node: etree._Element, field: Field, value: Any) -> None:
 
 
 def _text(value: Any, *, attribute: bool = False) -> str:
-    if isinstance(value, tuple):
-        return " ".join(map(repr, value))
+    if isinstance(value, tuple):  # of numbers, or of words
+        return " ".join(map(_text, value))
     if isinstance(value, bool):
         return str(value).lower() if attribute else str(int(value))
-    return repr(value) if isinstance(value, float) else str(value)
+    return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..assets.bundled import bundled_files
 from ..errors import AssetNotFound, ResultError
+from ..results.directory import INPUTS_FOLDER
 from ..results.inputs import Inputs, input_differences
 from ..runs.named_plugins import plugin_names
 from ..runs.own_process.program import SHARED_PROCESS, is_outside
@@ -149,7 +150,8 @@ def find_input(
     else:
         names = [*(word for word in words if Path(word).name == name), name]
         parents = (directory.absolute(), *directory.absolute().parents)
-        files = list(candidates(names, data_path=(*parents, *overrides.data_path)))
+        inputs = [folder / INPUTS_FOLDER for folder in parents[:2]]  # of the result, of its control
+        files = list(candidates(names, data_path=(*inputs, *parents, *overrides.data_path)))
         files += [path for path in bundled_files(f"{kind}s").values() if path.name == name]
     candidates_text = []
     for file in dict.fromkeys(path.resolve() if path.exists() else path for path in files):

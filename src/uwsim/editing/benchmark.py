@@ -1,0 +1,225 @@
+"""Benchmarks that a program reads, changes, checks and writes: `Benchmark`.
+
+.. code-block:: python
+
+    benchmark = uwsim.Benchmark()
+    benchmark.add("distance", name="trip", target="bluerov2")
+    benchmark.function.text = "trip"
+    benchmark.add("sceneFogUpdater", initial_value=0, final_value=1, step=0.5, interval=2)
+    result = uwsim.bench(benchmark, scene=scene, algorithm="pilot.py:Pilot")
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ..benchmark.plugin import Plugin
+from ..benchmark.plugin_tables import Tables
+from ..benchmark.reader import read_benchmark as read_benchmark_file
+from ..benchmark.spec import BenchmarkSpec, FunctionSpec
+from ..benchmark.triggers import NeverSpec, OnInitSpec
+from ..benchmark.updaters import NoneSpec
+from ..benchmark.writer import write_benchmark
+from ..checks.benchmark_tables import read_plugins
+from ..errors import BenchmarkError, Diagnostic
+from ..schema import Spec
+from .element import Element
+from .file_names import move_file_names
+from .scene import Scene, check_equal
+from .text_diagnostics import locate_diagnostics
+from .tree import (
+    check_name,
+    copy_element,
+    find_element,
+    references_to,
+    remove_with_references,
+    typed_element,
+)
+
+T = TypeVar("T", bound=Spec)
+NAME = "the benchmark"
+"""The name in messages of a benchmark that was not read from a file."""
+EMPTY_BENCHMARK = BenchmarkSpec(
+    measures=(),
+    start_on=OnInitSpec(),
+    stop_on=NeverSpec(),
+    function=FunctionSpec(text="0"),
+    scene_updater=NoneSpec(),
+)
+"""The contents of a new benchmark: it starts at once, and measures nothing."""
+
+
+class Benchmark(Element[BenchmarkSpec]):
+    """A benchmark that a program changes.
+
+    Its attributes are the elements of a benchmark file: ``measures``, ``function``, ``start_on``,
+    ``scene_updater``. ``benchmark["trip"]`` is the measure of that name. A scene updater that is
+    added to another one is nested in it.
+
+    Args:
+        spec: the first contents; None: a benchmark without measures, which starts at once.
+        plugins: the plugins whose measures, triggers and updaters are known, and their tables.
+    """
+
+    def __init__(
+        self,
+        spec: BenchmarkSpec | None = None,
+        *,
+        plugins: tuple[tuple[Plugin, ...], Tables] | None = None,
+    ) -> None:
+        tables = None if plugins is None else plugins[1]
+        super().__init__(EMPTY_BENCHMARK if spec is None else spec, tables=tables)
+        self._plugins = plugins
+
+    def __getitem__(self, path: str) -> Element[Any]:
+        return find_element(self, path)
+
+    def find(self, path: str, kind: type[T]) -> Element[T]:
+        """Return the element at a path, whose spec is of a kind that type checkers know.
+
+        Raises:
+            UnknownName: there is no element at the path.
+            BadSetting: the element is of another kind.
+        """
+        return typed_element(self, path, kind)
+
+    def copy(self, path: str, new_name: str) -> Element[Any]:
+        """Add a copy of the measure of a name, and return it."""
+        return copy_element(self, path, new_name)
+
+    def rename(self, path: str, new_name: str) -> None:
+        """Rename a measure, also in the score, the reward and the criterion of success."""
+        element = check_name(self, path, new_name)
+        references = references_to(self, path, new_name)
+        element.set(name=new_name)
+        for reference in references:
+            reference.element.set(**{reference.field: reference.new_text})
+
+    def remove(self, path: str) -> None:
+        """Remove the element at a path, such as a measure.
+
+        Raises:
+            UnknownName: there is no such element.
+            BadSetting: the score or another element names it; the error lists them.
+        """
+        remove_with_references(self, path, with_references=False)
+
+    def check(
+        self, scene: Scene | str | Path | None = None, *, data_path: Sequence[str | Path] = ()
+    ) -> tuple[Diagnostic, ...]:
+        """Return the errors and warnings of ``uwsim check``, with paths instead of lines.
+
+        Args:
+            scene: the scene; None: the scene that the benchmark names.
+            data_path: more folders in which files are searched.
+        """
+        from ..assets.bundled import scene_file
+        from ..checks import check_file
+
+        text, folders = self.to_xml(), self.folders(data_path)
+        with tempfile.TemporaryDirectory(prefix="uwsim-") as folder:
+            file, scene_path = Path(folder) / "benchmark.xml", None
+            file.write_text(text, encoding="utf-8")
+            if isinstance(scene, Scene):
+                scene_path = Path(folder) / "scene.xml"
+                scene_path.write_text(scene.to_xml(), encoding="utf-8")
+                folders += scene.folders()
+            elif scene is not None:
+                scene_path = scene_file(str(scene), folders)
+            diagnostics = check_file(
+                file, data_path=folders, scene=scene_path, plugins=self._plugins
+            )
+            return locate_diagnostics(diagnostics, text, str(file), self.path or NAME)
+
+    def checked_spec(self) -> BenchmarkSpec:
+        """Return the spec after the checks of a reader.
+
+        Raises:
+            BenchmarkError: the benchmark is invalid; the error has every mistake in it.
+        """
+        text, spec, tables = self.to_xml(), self.spec, self._tables
+        with tempfile.TemporaryDirectory(prefix="uwsim-") as folder:
+            file = Path(folder) / "benchmark.xml"
+            file.write_text(text, encoding="utf-8")
+            try:
+                read_spec = read_benchmark_file(
+                    file,
+                    measures=tables.measures,
+                    triggers=tables.triggers,
+                    updaters=tables.updaters,
+                )
+            except BenchmarkError as error:
+                diagnostics = locate_diagnostics(
+                    error.diagnostics, text, str(file), self.path or NAME
+                )
+                raise BenchmarkError(diagnostics) from None
+        check_equal(spec, read_spec)
+        return spec
+
+    def to_xml(self) -> str:
+        """Return the text of a benchmark file, without values that equal their defaults."""
+        tables = self._tables
+        return write_benchmark(
+            self.spec,
+            measures=tables.measures,
+            triggers=tables.triggers,
+            updaters=tables.updaters,
+        )
+
+    def write(self, path: str | Path) -> Path:
+        """Write a benchmark file, which reads back to an equal spec, and return its path.
+
+        The names of files are changed so that they are found from the new folder.
+
+        Raises:
+            UwsimError: the benchmark is invalid, or the folder does not exist.
+        """
+        from ..results.atomic_file import write_text
+
+        new_path = Path(path)
+        moved_benchmark = Benchmark(self.checked_spec(), plugins=self._plugins)
+        move_file_names(moved_benchmark, self.path, new_path)
+        write_text(new_path, moved_benchmark.to_xml())
+        return new_path
+
+    @property
+    def plugin_files(self) -> tuple[Path, ...]:
+        """The files of the plugins with which the benchmark was read."""
+        return tuple(Path(plugin.path) for plugin in (self._plugins or ((),))[0])
+
+    def folders(self, data_path: Sequence[str | Path] = ()) -> tuple[Path, ...]:
+        """Return the folders in which files are searched, if the file is written elsewhere."""
+        from ..assets.find import parent_folders
+
+        named_by = Path(self.path) if self.path else None
+        return (*parent_folders(named_by), *(Path(folder) for folder in data_path))
+
+
+def read_benchmark(
+    benchmark: str | Path,
+    *,
+    plugins: Sequence[str | Path] = (),
+    data_path: Sequence[str | Path] = (),
+) -> Benchmark:
+    """Read a benchmark that a program can change; comments of the file are not kept.
+
+    Args:
+        benchmark: a benchmark file, or a bundled name (``uwsim list benchmarks``).
+        plugins: the files with the user's measures, triggers and updaters; this runs them.
+        data_path: more folders in which files are searched.
+
+    Raises:
+        UwsimError: there is no such file, or it is invalid.
+    """
+    from ..assets.bundled import benchmark_file
+
+    path = benchmark_file(str(benchmark), tuple(Path(folder) for folder in data_path))
+    loaded_plugins = read_plugins([Path(file) for file in plugins])
+    tables = loaded_plugins[1]
+    spec = read_benchmark_file(
+        path, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
+    )
+    return Benchmark(spec, plugins=loaded_plugins if plugins else None)
