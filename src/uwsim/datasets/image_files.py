@@ -10,10 +10,10 @@ import numpy.typing as npt
 
 from ..errors import ResultError, name_file_in_errors
 from ..messages.compressed import encode_png
+from .pixel_counts import round_millimetres
 
 JPEG_QUALITY = 95
 """The quality of JPEG images, 0 to 100."""
-MILLIMETRES_PER_METRE = np.float32(1000.0)
 MAX_DEPTH_MM = np.float32(65535.0)
 """The greatest depth in a 16-bit image [mm]; greater depths are stored as this number."""
 FOLDERS = ("images", "depth", "instances", "classes")
@@ -26,15 +26,13 @@ def encode_colour(pixels: npt.NDArray[np.uint8], encoding: str) -> bytes:
     """Return the file of a colour image (h, w, 3) or a grey one (h, w)."""
     if encoding == "png":
         return encode_png(pixels)
-    image = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
+    image = pixels if pixels.ndim == 2 else cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR)
     return cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])[1].tobytes()
 
 
 def depth_millimetres(depth: npt.NDArray[np.float32]) -> npt.NDArray[np.uint16]:
     """Return depths [m] as millimetres, rounded to nearest; 0: no surface."""
-    is_surface = np.isfinite(depth)
-    millimetres = np.rint(np.where(is_surface, depth, np.float32(0.0)) * MILLIMETRES_PER_METRE)
-    return np.minimum(millimetres, MAX_DEPTH_MM).astype(np.uint16)
+    return round_millimetres(depth, MAX_DEPTH_MM)
 
 
 def file_paths(index: int, encoding: str) -> dict[str, str]:

@@ -27,7 +27,7 @@ from ..rendering.rendered_image import RenderedImage
 from ..simulation import Simulation
 from .camera import world_from_optical
 from .instances import Instance, InstanceTable
-from .pixel_counts import measure_numbers, pixel_box
+from .pixel_counts import number_image, pixel_box
 from .silhouettes import measure_silhouettes
 
 CORNER_TOLERANCE = 0.05
@@ -56,13 +56,14 @@ def label_image(
     """Render the labels of an image from a pose in W (OpenGL axes)."""
     image = simulation.world.scenery.render_clean(pose, intrinsics, targets={"ids", "range"})
     assert image.ids is not None
-    mask = table.instance_numbers[image.ids]
-    visible_rows = measure_numbers(mask, len(table.instances) + 1)
+    masks = number_image(
+        image.ids, table.instance_numbers, table.class_numbers, len(table.instances) + 1
+    )
     silhouettes = measure_silhouettes(simulation, table, pose, intrinsics)
     depth = image.depth
     return ImageLabels(
-        instance_mask=mask,
-        class_mask=table.class_numbers[image.ids],
+        instance_mask=masks.instance_mask,
+        class_mask=masks.class_mask,
         depth=depth,
         instances=[
             _describe(
@@ -70,7 +71,7 @@ def label_image(
                 image,
                 depth,
                 pose,
-                visible_rows[instance.number],
+                masks.rows[instance.number],
                 silhouettes[instance.number],
             )
             for instance in table.boxed_instances

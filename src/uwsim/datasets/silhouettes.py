@@ -14,7 +14,7 @@ import numpy.typing as npt
 from ..base.geometry import Intrinsics, Pose
 from ..simulation import Simulation
 from .instances import Instance, InstanceTable
-from .pixel_counts import measure_numbers
+from .pixel_counts import measure_ids
 
 Rectangle = tuple[float, float, float, float]
 """The least and the greatest column, and the least and the greatest row [px]."""
@@ -25,7 +25,7 @@ MARGIN = 2.0
 def measure_silhouettes(
     simulation: Simulation, table: InstanceTable, pose: Pose, intrinsics: Intrinsics
 ) -> npt.NDArray[np.int64]:
-    """Return the pixel count and the box of each instance's silhouette, as `measure_numbers`.
+    """Return the pixel count and the box of each instance's silhouette, as `measure_ids`.
 
     Instances that are no things, or not in the view, have 0 pixels.
     """
@@ -42,7 +42,7 @@ def measure_silhouettes(
             pose, intrinsics, targets={"ids"}, hidden_ids=table.all_ids - shown_ids
         )
         assert image.ids is not None
-        group_rows = measure_numbers(table.instance_numbers[image.ids], n)
+        group_rows = measure_ids(image.ids, table.instance_numbers, n)
         result[numbers] = group_rows[numbers]
     return result
 

@@ -38,6 +38,6 @@ def _compress(image: Image, name: str, options: Sequence[int]) -> CompressedImag
 
 
 def _encode(pixels: npt.NDArray[Any], name: str, options: Sequence[int]) -> npt.NDArray[np.uint8]:
-    bgr_pixels = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
+    bgr_pixels = pixels if pixels.ndim == 2 else cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR)
     _, file_bytes = cv2.imencode(f".{name}", bgr_pixels, options)
     return np.asarray(file_bytes, dtype=np.uint8)
