@@ -150,14 +150,26 @@ def test_a_setpoint_is_on_its_path_and_moves_along_it(
     mission = AutopilotPath()
     mission._points = np.array(points, dtype=float)
     mission._lengths = [math.dist(a, b) for a, b in itertools.pairwise(points)]
-    mission._yaw, mission.parameters = 0.0, {"speed": 0.5}
+    mission._yaw, mission.parameters = 0.0, {"speed": 0.5, "laps": 2.0}
     position, velocity, _ = mission.setpoint(time)
     on_edge = [
         abs(math.dist(a, position) + math.dist(position, b) - math.dist(a, b)) < 1e-6
         for a, b in itertools.pairwise(points)
     ]
     assert any(on_edge)
-    assert float(np.sqrt(np.sum(velocity**2))) == pytest.approx(0.5 if time > 0 else 0.0)
+    is_moving = 0.0 < time < 2.0 * sum(mission._lengths) / 0.5
+    assert float(np.sqrt(np.sum(velocity**2))) == pytest.approx(0.5 if is_moving else 0.0)
+
+
+def test_a_mission_stays_at_the_end_of_its_last_lap() -> None:
+    mission = AutopilotPath()
+    mission._points = np.array([[0.0, 0.0, 1.5], [1.0, 0.0, 1.5], [1.0, 1.0, 1.5]])
+    mission._lengths, mission._yaw = [1.0, 1.0], 0.0
+    mission.parameters = {"speed": 0.5, "laps": 1.0}
+    assert np.array_equal(mission.setpoint(3.9)[1], [0.0, 0.5, 0.0])
+    position, velocity, _ = mission.setpoint(5.0)
+    assert np.array_equal(position, [1.0, 1.0, 1.5])
+    assert np.array_equal(velocity, np.zeros(3))
 
 
 @pytest.mark.parametrize(

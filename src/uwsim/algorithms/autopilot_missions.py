@@ -184,14 +184,15 @@ class AutopilotPath(AutopilotMission):
     """An autopilot that drives along a closed path at a constant speed, by default a square of 1 m.
 
     ``path`` is a list of points in L, x y z [m]. The setpoint moves along it at ``speed`` [m/s],
-    with its velocity, and begins again at the end. ``yaw`` is the heading about the z axis of L
-    [rad].
+    with its velocity, ``laps`` times from its first to its last point, where it stays. ``yaw`` is
+    the heading about the z axis of L [rad].
     """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         **MISSION_PARAMETERS,
         "path": "0 0 1.5 1 0 1.5 1 1 1.5 0 1 1.5 0 0 1.5",
         "speed": 0.15,
+        "laps": 1.0,
         "yaw": "0",
     }
     """The parameters with their defaults."""
@@ -211,9 +212,12 @@ class AutopilotPath(AutopilotMission):
         self._yaw = float(read_numbers("yaw", str(self.parameters["yaw"]), 1)[0])
 
     def setpoint(self, time: float) -> tuple[Array, Array, float]:
-        """Return the point that moves along the path."""
+        """Return the point that moves along the path, or its last point after the last lap."""
         speed = float(self.parameters["speed"])
-        distance = (speed * time) % sum(self._lengths)
+        distance = speed * time
+        if distance >= float(self.parameters["laps"]) * sum(self._lengths):
+            return self._points[-1], np.zeros(3), self._yaw
+        distance %= sum(self._lengths)
         for k, edge_length in enumerate(self._lengths):
             if distance < edge_length or k == len(self._lengths) - 1:
                 break
