@@ -90,7 +90,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "virtual_sensors", "scenarios"}
     ),
     "editing": TASKS | ENGINES | {"checks", "editing"},
-    "envs": TASKS | ENGINES | {"checks", "runs", "viewer", "envs"},
+    "envs": TASKS | ENGINES | {"checks", "editing", "runs", "viewer", "envs"},
     "manoeuvres": TASKS | ENGINES | {"analysis", "manoeuvres"},
     "datasets": (TASKS | ENGINES | {"runs", "analysis", "middleware", "viewer", "datasets"}),
     "envelope": TASKS | {"runs", "analysis", "envelope"},

@@ -130,7 +130,7 @@ def bench(
         UwsimError: an input is invalid, or a run failed as in the command; also if a simulation
             failed, or the algorithm failed in every row. Finished rows remain in ``out``.
     """
-    from .editing.run_files import write_run_files
+    from .editing.run_files import locate_errors, write_run_files
     from .runs.planning.plan_request import PlanRequest
 
     name, algorithm_class = _name_and_class(algorithm)
@@ -154,7 +154,8 @@ def bench(
             data_path=(*_folders_of(data_path), *files.folders),
             plugins=files.plugins,
         )
-        return _execute_request(request, files, workers, out, on_progress)
+        with locate_errors(files):
+            return _execute_request(request, files, workers, out, on_progress)
 
 
 def _execute_request(

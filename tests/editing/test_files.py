@@ -107,6 +107,26 @@ def test_a_benchmark_from_nothing_runs_over_a_scene_from_nothing() -> None:
     assert [row[0] for row in result.rows] == [0.0, 0.5, 1.0]
 
 
+def test_errors_of_a_run_name_the_element_of_the_benchmark() -> None:
+    benchmark = read_benchmark("visibility")
+    benchmark.scene_updater.set(final_value=0, interval=0.1)
+    with pytest.raises(BenchmarkError, match="sceneFogUpdater: The scene has physical"):
+        uwsim.bench(benchmark, scene="visibility-physical-scene", algorithm="frozen")
+
+
+def test_a_table_beside_the_benchmark_is_kept_with_the_result(tmp_path: Path) -> None:
+    (tmp_path / "line.csv").write_text("x,y,z\n0,0,0\n1,0,0\n")
+    benchmark = Benchmark()
+    measure = benchmark.add("pathFollowing", name="path", target="girona500")
+    measure.add("path", file="line.csv")
+    benchmark.function.text = "path"
+    benchmark.add("sceneFogUpdater", initial_value=0, final_value=0, step=1, interval=0.1)
+    (tmp_path / "line.xml").write_text(benchmark.to_xml())
+    benchmark = read_benchmark(tmp_path / "line.xml")
+    uwsim.bench(benchmark, scene="visibility-scene", algorithm="frozen", out=tmp_path / "a.result")
+    assert (tmp_path / "a.result" / INPUTS_FOLDER / "line.csv").is_file()
+
+
 def test_values_of_hydrodynamics_have_no_place_in_a_scene_file() -> None:
     spec = read_scene("bluerov2-scene").spec
     from uwsim.scene.settings import apply_setting

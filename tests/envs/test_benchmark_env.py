@@ -201,3 +201,14 @@ def test_a_file_with_a_wrong_environment_has_the_line_of_its_error(tmp_path: Pat
     path.write_text(text.replace("<reference>offset", "<reference>ofset"))
     with pytest.raises(BenchmarkError, match=r"wrong\.xml:.*offset"):
         make_env(path)
+
+
+def test_a_benchmark_and_a_scene_from_python_are_an_environment() -> None:
+    benchmark, scene = uwsim.read_benchmark("station-keeping"), uwsim.read_scene("open-water-scene")
+    benchmark.environment.period = 0.1
+    scene.vehicles[0].position = (0.5, 0, -5)
+    env = make_env(benchmark, scene=scene)
+    env.reset(seed=1)
+    env.step(env.action_space.sample())
+    assert env.metadata["render_fps"] == 10
+    env.close()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,7 @@ def move_file_names(root: Element[Any], old_path: str, new_path: Path) -> None:
     """
     old_file = Path(old_path) if old_path else None
     outside_names = []
-    for element, field, name in list(_file_names(root)):
+    for element, field, name in list(file_names(root)):
         try:
             target = find(name, named_by=old_file)
         except AssetError:
@@ -48,13 +49,31 @@ def move_file_names(root: Element[Any], old_path: str, new_path: Path) -> None:
         )
 
 
-def _file_names(root: Element[Any]) -> Iterator[tuple[Element[Any], str, str]]:
+def file_names(root: Element[Any]) -> Iterator[tuple[Element[Any], str, str]]:
+    """Yield each name of a file with its element and the name of its field."""
     for element in walk(root):
         for field in FILE_FIELDS & element._fields.keys():
             value = element._values[field]
             for name in value if isinstance(value, tuple) else (value,):
                 if isinstance(name, str) and name:
                     yield element, field, name
+
+
+def copy_tables(root: Element[Any], old_path: str, new_path: Path) -> list[Path]:
+    """Copy the CSV files that a benchmark names beside its new file, and return the copies.
+
+    A benchmark searches them in its own folder only.
+    """
+    copies: list[Path] = []
+    for element, field, name in list(file_names(root)):
+        target = find(name, named_by=Path(old_path) if old_path else None)
+        if target is None or target.suffix.lower() != ".csv" or _finds(name, new_path, target):
+            continue
+        copy = new_path.parent / target.name
+        shutil.copyfile(target, copy)
+        element.set(**{field: copy.name})
+        copies.append(copy)
+    return copies
 
 
 def _finds(name: str, named_by: Path, target: Path) -> bool:

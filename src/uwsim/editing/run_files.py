@@ -8,9 +8,12 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..errors import FileError, SeveralErrors
 from ..results.directory import INPUTS_FOLDER
 from .benchmark import Benchmark
+from .file_names import copy_tables
 from .scene import Scene
+from .text_diagnostics import locate_diagnostics
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,15 +55,12 @@ def write_run_files(
         folders += scene.folders()
         scene = str(file)
     if isinstance(benchmark, Benchmark):
-        spec = benchmark.checked_spec()
-        if written_files:
-            named_benchmark = Benchmark(spec, plugins=benchmark._plugins)
-            named_benchmark.scene = written_files[0].name
-            text = named_benchmark.to_xml()
-        else:
-            text = benchmark.to_xml()
+        new_benchmark = Benchmark(benchmark.checked_spec(), plugins=benchmark._plugins)
         file = folder / _file_name(benchmark.path, "benchmark.xml")
-        file.write_text(text, encoding="utf-8")
+        if written_files:
+            new_benchmark.scene = written_files[0].name
+        written_files += copy_tables(new_benchmark, benchmark.path, file)
+        file.write_text(new_benchmark.to_xml(), encoding="utf-8")
         written_files.append(file)
         folders += benchmark.folders()
         plugins = benchmark.plugin_files
@@ -86,6 +86,30 @@ def keep_run_files(
             for file in files.written_files:
                 shutil.copyfile(file, folder / file.name)
         yield
+
+
+@contextmanager
+def locate_errors(files: RunFiles) -> Iterator[None]:
+    """State the path of the element, instead of a line, in errors about the written files."""
+    try:
+        yield
+    except FileError as error:
+        raise _locate_error(error, files) from None
+    except SeveralErrors as error:
+        errors = [
+            _locate_error(item, files) if isinstance(item, FileError) else item
+            for item in error.errors
+        ]
+        raise SeveralErrors(errors) from None
+
+
+def _locate_error(error: FileError, files: RunFiles) -> FileError:
+    diagnostics = error.diagnostics
+    for file in files.written_files:
+        if file.suffix == ".xml" and file.is_file():
+            text = file.read_text(encoding="utf-8")
+            diagnostics = locate_diagnostics(diagnostics, text, str(file), file.name)
+    return type(error)(diagnostics)
 
 
 def _file_name(path: str, default: str) -> str:

@@ -13,6 +13,7 @@ from gymnasium.spaces import Box
 
 from ..base.geometry import Array
 from ..benchmark.environment.observer import MAX_OBSERVATION
+from ..editing import Benchmark, Scene
 from ..errors import BadSetting, UnknownName
 from ..runs.planning.trial_cache import TrialCache
 from ..sensors.virtual_camera import VirtualCameraSpec
@@ -29,7 +30,8 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
     """The environment of a benchmark file with ``<u:environment>``.
 
     Args:
-        benchmark: a benchmark file or a bundled name.
+        benchmark: a benchmark file, a bundled name, or a `Benchmark`.
+        scene: the scene, a `Scene` too; None: the scene that the benchmark names.
         observation: the observed quantities and fields of topics; None: those of the file.
         action: the topics of the commands; None: those of the file.
         reward: the expression of the reward; None: that of the file.
@@ -50,8 +52,9 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
 
     def __init__(
         self,
-        benchmark: str | Path,
+        benchmark: str | Path | Benchmark,
         *,
+        scene: str | Path | Scene | None = None,
         observation: Sequence[str] | None = None,
         action: Sequence[str] | None = None,
         reward: str | None = None,
@@ -76,7 +79,11 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
             period=period,
         )
         self._plan = make_task(
-            benchmark, options, settings=settings or {}, data_path=tuple(data_path)
+            benchmark,
+            options,
+            settings=settings or {},
+            data_path=tuple(data_path),
+            scene=scene,
         )
         self.render_mode = render_mode
         self.metadata = {

@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 from ..errors import MissingExtra
 
 if TYPE_CHECKING:
+    from ..editing import Benchmark, Scene
     from .benchmark_env import BenchmarkEnv
 
 
 class EnvOptions(TypedDict, total=False):
     """The options of an environment; `BenchmarkEnv` describes them."""
 
+    scene: str | Path | Scene | None
     observation: Sequence[str] | None
     action: Sequence[str] | None
     reward: str | None
@@ -29,12 +31,12 @@ class EnvOptions(TypedDict, total=False):
     camera: str | None
 
 
-def make_env(benchmark: str | Path, **options: Unpack[EnvOptions]) -> BenchmarkEnv:
+def make_env(benchmark: str | Path | Benchmark, **options: Unpack[EnvOptions]) -> BenchmarkEnv:
     """Make the Gymnasium environment of a benchmark file.
 
     Args:
-        benchmark: a benchmark file or a bundled name; with ``observation`` and ``action`` it needs
-            no ``<u:environment>``.
+        benchmark: a benchmark file, a bundled name or a `Benchmark`; with ``observation`` and
+            ``action`` it needs no ``<u:environment>``.
         options: the options of `uwsim.envs.BenchmarkEnv`.
 
     Raises:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -11,6 +12,8 @@ from typing import Any
 from ..benchmark.environment import ActionSpec, EnvironmentSpec, TopicFieldSpec
 from ..benchmark.updaters import Level
 from ..bus import Node
+from ..editing import Benchmark, Scene
+from ..editing.run_files import write_run_files
 from ..errors import BadSetting, UnknownName
 from ..messages import Empty
 from ..runs.planning.make_plan import make_plan
@@ -50,29 +53,38 @@ class OuterPolicy:
 
 
 def make_task(
-    benchmark: str | Path,
+    benchmark: str | Path | Benchmark,
     options: EnvironmentOptions,
     *,
     settings: Mapping[str, float | str],
     data_path: Sequence[str | Path],
+    scene: str | Path | Scene | None = None,
 ) -> Plan:
-    """Read a benchmark file, and return the plan of its environment.
+    """Read a benchmark and its scene, and return the plan of its environment.
 
     Raises:
         BadSetting: the benchmark has no environment, or a part of it is invalid.
         UwsimError: a file is invalid.
     """
-    plan = make_plan(
-        PlanRequest(
-            benchmark=str(benchmark),
-            algorithm="uwsim.envs.task:OuterPolicy",
-            algorithm_class=OuterPolicy,
-            in_process=True,
-            mode="independent",
-            settings=[f"{path}={value}" for path, value in settings.items()],
-            data_path=tuple(Path(folder) for folder in data_path),
+    with tempfile.TemporaryDirectory(prefix="uwsim-") as folder:
+        files = write_run_files(benchmark, scene, Path(folder))
+        plan = make_plan(
+            PlanRequest(
+                benchmark=files.benchmark,
+                scene=files.scene,
+                algorithm="uwsim.envs.task:OuterPolicy",
+                algorithm_class=OuterPolicy,
+                in_process=True,
+                mode="independent",
+                settings=[f"{path}={value}" for path, value in settings.items()],
+                data_path=(*(Path(folder) for folder in data_path), *files.folders),
+                plugins=files.plugins,
+            )
         )
-    )
+    if isinstance(benchmark, Benchmark):  # its written file is gone
+        plan = replace(plan, benchmark=replace(plan.benchmark, path=benchmark.path))
+    if isinstance(scene, Scene):
+        plan = replace(plan, scene=replace(plan.scene, path=scene.path))
     environment = change_environment(plan.benchmark.environment, options, plan)
     if errors := [message for _, message in environment.errors(plan.benchmark.measures)]:
         raise BadSetting(f"{plan.benchmark.path}: {'; '.join(errors)}.")

@@ -9,6 +9,7 @@ from typing import Literal, Unpack
 
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
+from ..editing import Benchmark, Scene
 from ..errors import BadSetting
 from .benchmark_env import BenchmarkEnv
 from .make import EnvOptions
@@ -25,18 +26,19 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
     Row i after ``reset(seed=s)`` is the single environment after ``reset(seed=s + i)``, to the bit.
 
     Args:
-        benchmark: a benchmark file or a bundled name.
+        benchmark: a benchmark file, a bundled name, or a `Benchmark`.
         num_envs: the number of rows.
         autoreset_mode: ``NextStep`` (the default), ``SameStep`` or ``Disabled``.
-        observation: an option of `BenchmarkEnv`, as are the following.
+        scene: an option of `BenchmarkEnv`, as are the following.
     """
 
     def __init__(
         self,
-        benchmark: str | Path,
+        benchmark: str | Path | Benchmark,
         num_envs: int = 1,
         *,
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+        scene: str | Path | Scene | None = None,
         observation: Sequence[str] | None = None,
         action: Sequence[str] | None = None,
         reward: str | None = None,
@@ -52,6 +54,7 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
         make = partial(
             BenchmarkEnv,
             benchmark,
+            scene=scene,
             observation=observation,
             action=action,
             reward=reward,
@@ -73,7 +76,7 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
 
 
 def make_vector_env(
-    benchmark: str | Path,
+    benchmark: str | Path | Benchmark,
     num_envs: int = 1,
     *,
     stepper: Literal["engine", "rows"] = "engine",
@@ -84,7 +87,7 @@ def make_vector_env(
     """Make a vector of environments of a benchmark file.
 
     Args:
-        benchmark: a benchmark file or a bundled name.
+        benchmark: a benchmark file, a bundled name, or a `Benchmark`.
         num_envs: the number of rows.
         stepper: ``engine`` for episodes that are trials of the benchmark, or ``rows`` for compiled
             rows of free vehicles, several hundred times as fast.
@@ -110,5 +113,11 @@ def make_vector_env(
         reference=options.get("reference"),
         period=options.get("period"),
     )
-    plan = make_task(benchmark, parts, settings=settings or {}, data_path=data_path)
+    plan = make_task(
+        benchmark,
+        parts,
+        settings=settings or {},
+        data_path=data_path,
+        scene=options.get("scene"),
+    )
     return RowVectorEnv(plan, num_envs, threads=threads, autoreset_mode=autoreset_mode)

@@ -31,7 +31,7 @@ FILE_NAMES = re.compile(
       | units/\d+\.(jsonl|motion|inputs|part)
       | plots/[^/]+\.(png|pdf)
       | pictures/\d+-[^/]+\.png(\.part)?
-      | inputs/[^/]+\.xml
+      | inputs/[^/]+\.(xml|csv)
     )"""
 )
 """The paths of the files that uwsim writes into a result directory, or into its subfolder for each
