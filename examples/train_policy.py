@@ -52,10 +52,10 @@ def train(n_generations: int, seed: int) -> tuple[np.ndarray, list[float]]:
             actions = np.tanh(np.einsum("nij,nj->ni", weights, observations))
             observations, rewards, *_ = rows.step(actions)
             returns += rewards
-        best = np.argsort(-returns, kind="stable")[:N_BEST]
+        elite = np.argsort(-returns, kind="stable")[:N_BEST]
         noise = NOISE * (1.0 - generation / n_generations)
-        mean, spread = weights[best].mean(axis=0), np.hypot(weights[best].std(axis=0), noise)
-        best_returns.append(float(returns[best].mean()))
+        mean, spread = weights[elite].mean(axis=0), np.hypot(weights[elite].std(axis=0), noise)
+        best_returns.append(float(returns[elite].mean()))
         if generation % 10 == 9:
             print(f"generation {generation + 1}: return {best_returns[-1]:.0f} of {N_STEPS}")
     rows.close()
