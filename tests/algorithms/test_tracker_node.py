@@ -11,7 +11,15 @@ from uwsim.algorithms.tracker import Estimate, LossTest
 from uwsim.errors import BadSetting
 
 QUAD = rectangle(160.0, 120.0, 93.0, 28.0)
-BLIND = ("autopilot-path", "autopilot-station", "pilot", "position-p", "position-pi", "scripted")
+BLIND = (
+    "autopilot-path",
+    "autopilot-station",
+    "pilot",
+    "position-lqr",
+    "position-p",
+    "position-pi",
+    "scripted",
+)
 LOOKING = [name for name in ALGORITHMS if name not in BLIND and not name.startswith("grasp")]
 TRACKERS = [name for name in LOOKING if name != "frozen"]
 

@@ -21,6 +21,7 @@ from .orb import Orb
 from .pilot import Pilot
 from .policy import is_policy
 from .position import PositionP, PositionPI
+from .position_lqr import PositionLQR
 from .scripted import ScriptedPilot
 from .tracker_node import merge_parameters
 
@@ -43,6 +44,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "p": P,
     "pi": PI,
     "pilot": Pilot,
+    "position-lqr": PositionLQR,
     "position-p": PositionP,
     "position-pi": PositionPI,
     "scripted": ScriptedPilot,

@@ -1,0 +1,35 @@
+"""A policy of a few layers in numpy, which `ppo.py` and `cem.py` train and ``uwsim bench`` scores.
+
+    uwsim bench station-keeping --algorithm examples/learning/policy.py:Policy --repeat 6
+
+`Policy` reads the file ``policy.npz`` of the current folder.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+
+class Policy:
+    """The action for an observation: ``tanh`` layers on the standardised observation."""
+
+    def __init__(self, path="policy.npz"):
+        with np.load(Path(path)) as file:
+            n_layers = len([name for name in file.files if name.startswith("weight")])
+            self.layers = [(file[f"weight{i}"], file[f"bias{i}"]) for i in range(n_layers)]
+            self.mean, self.deviation = file["mean"], file["deviation"]
+
+    def __call__(self, observation):
+        """Return the action for an observation."""
+        hidden = np.clip((observation - self.mean) / self.deviation, -10.0, 10.0)
+        for weight, bias in self.layers[:-1]:
+            hidden = np.tanh(hidden @ weight + bias)
+        weight, bias = self.layers[-1]
+        return np.clip(hidden @ weight + bias, -1.0, 1.0)
+
+
+def save_policy(path, layers, mean, deviation):
+    """Write the layers, pairs of a weight (n, m) and a bias (m,), and the standardisation."""
+    weights = {f"weight{i}": weight for i, (weight, _) in enumerate(layers)}
+    biases = {f"bias{i}": bias for i, (_, bias) in enumerate(layers)}
+    np.savez(path, mean=mean, deviation=deviation, **weights, **biases)
