@@ -20,6 +20,7 @@ LICENCE = "Apache-2.0, with uwsim"
 """The licence of bundled models."""
 OPTIONS = {
     "camera": "--camera",
+    "sonar": "--sonar",
     "distance": "--distance",
     "elevation": "--elevation",
     "roll": "--roll",
@@ -69,7 +70,7 @@ def command_of(request: DatasetRequest) -> list[str]:
     default = DatasetRequest(scene=request.scene, out=request.out)
     width, height = request.size
     command = ["uwsim", "dataset", request.scene, "-n", str(request.n_images)]
-    command += ["--size", f"{width}x{height}"]
+    command += ["--size", f"{width}x{height}"] if request.sonar is None else []
     for name, option in OPTIONS.items():
         value = getattr(request, name)
         if value != getattr(default, name):
@@ -105,6 +106,9 @@ def _contents(request: DatasetRequest) -> list[str]:
         ("train.txt, val.txt, test.txt", "the images of each split"),
         ("dataset.json", "the request, the classes, the version"),
     ]
+    if request.sonar is not None:
+        rows[1] = ("images", "polar sonar images, 8 bit: range downwards, port left")
+        del rows[2]
     formats = {
         "coco": ("coco", "instances_train.json and more: boxes, masks, keypoints"),
         "kitti": ("kitti", "training/label_2, calib, image_2, and ImageSets"),

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ..analysis.plots.save import save_plot
 from ..analysis.plots.style import INK, PALETTE, styled_figure
 from .image_files import read_values
+from .sensor_record import sensor_of
 
 N_COLUMNS = 6
 """The number of images."""
@@ -22,6 +23,8 @@ ROWS = ("image", "boxes", "instances", "depth")
 """The rows of the sheet."""
 MIN_AREA, MAX_AREA = 0.004, 0.5
 """The visible share of an image [1] between which an instance is shown well."""
+MIN_SONAR_AREA = 0.0008
+"""The share of the bins of a sonar image [1] above which an instance is shown well."""
 EDGES = [(i, i | bit) for i in range(8) for bit in (1, 2, 4) if not i & bit]
 """The edges of a box, as pairs of corners."""
 
@@ -35,13 +38,14 @@ def write_contact_sheet(
     chosen_records = choose_records(records)
     if not chosen_records:
         return
-    camera = chosen_records[0]["camera"]
-    ratio = camera["height"] / camera["width"]
-    size = (COLUMN_WIDTH * len(chosen_records) + 0.3, COLUMN_WIDTH * ratio * len(ROWS) + 0.1)
+    sensor = sensor_of(chosen_records[0])
+    ratio = sensor["height"] / sensor["width"]
+    rows = ROWS if "depth" in chosen_records[0]["files"] else ROWS[:-1]
+    size = (COLUMN_WIDTH * len(chosen_records) + 0.3, COLUMN_WIDTH * ratio * len(rows) + 0.1)
     with styled_figure(size) as figure:
         engine: Any = figure.get_layout_engine()
         engine.set(rect=(0, 0, 1, 1), w_pad=0.015, h_pad=0.015, wspace=0.0, hspace=0.0)
-        axes = figure.subplots(len(ROWS), len(chosen_records), squeeze=False)
+        axes = figure.subplots(len(rows), len(chosen_records), squeeze=False)
         for column, record in enumerate(chosen_records):
             panels = _draw_panels(directory, record, classes)
             for row, panel in enumerate(panels):
@@ -53,7 +57,7 @@ def write_contact_sheet(
                 for spine in axis.spines.values():
                     spine.set_visible(False)
                 if column == 0:
-                    axis.set_ylabel(ROWS[row], color=INK, fontsize=7.5)
+                    axis.set_ylabel(rows[row], color=INK, fontsize=7.5)
         save_plot(figure, directory / "contact-sheet.png")
 
 
@@ -61,14 +65,15 @@ def choose_records(records: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """Return records in which the target is neither tiny nor close, classes in turn."""
     by_class: dict[str, list[dict[str, Any]]] = {}
     for record in records:
-        area = record["camera"]["width"] * record["camera"]["height"]
+        area = sensor_of(record)["width"] * sensor_of(record)["height"]
+        least_area = MIN_AREA if "camera" in record else MIN_SONAR_AREA
         sizes = {
             instance["class"]: instance["visible_pixels"] / area
             for instance in record["instances"]
             if instance["name"] == record["target"] or not record["target"]
         }
         for name, share in sizes.items():
-            if MIN_AREA <= share <= MAX_AREA:
+            if least_area <= share <= MAX_AREA:
                 by_class.setdefault(name, []).append(record)
                 break
     chosen_records: list[dict[str, Any]] = []
@@ -84,27 +89,31 @@ def _draw_panels(directory: Path, record: dict[str, Any], classes: Sequence[str]
     """Return the panels of an image, in the order of `ROWS`."""
     image = np.asarray(cv2.imread(str(directory / record["files"]["images"])))[..., ::-1]
     image = np.ascontiguousarray(image)
+    if "sonar" in record:  # echoes of the floor are dark beside those of things
+        image = np.rint(255.0 * np.sqrt(image / 255.0)).astype(np.uint8)
     mask = read_values(directory / record["files"]["instances"])
-    depth = read_values(directory / record["files"]["depth"])
-    return [
+    panels = [
         image,
         draw_boxes(image, record, classes),
         _draw_instances(image, mask, record, classes),
-        colour_depth(depth),
     ]
+    if "depth" in record["files"]:
+        panels.append(colour_depth(read_values(directory / record["files"]["depth"])))
+    return panels
 
 
 def draw_boxes(image: Colours, record: dict[str, Any], classes: Sequence[str]) -> Colours:
     """Return an image with the visible boxes and the edges of the 3-D boxes."""
     picture = image.copy()
     width = max(1, round(image.shape[1] / 320))
-    camera = record["camera"]
+    camera = record.get("camera")
     for instance in record["instances"]:
         if instance["box"] is None:
             continue
         colour = _colour_of(instance["class"], classes)
         corners = np.array(instance["box_3d"]["corners"])
-        if corners[:, 2].min() > 0.0 and not camera["distortion"]["coefficients"]:
+        has_edges = camera is not None and not camera["distortion"]["coefficients"]
+        if camera is not None and has_edges and corners[:, 2].min() > 0.0:
             x, y = corners[:, 0] / corners[:, 2], corners[:, 1] / corners[:, 2]
             u = camera["cx"] + camera["fx"] * x + camera["skew"] * y
             v = camera["cy"] + camera["fy"] * y

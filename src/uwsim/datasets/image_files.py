@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import cv2
@@ -16,6 +17,8 @@ JPEG_QUALITY = 95
 """The quality of JPEG images, 0 to 100."""
 MAX_DEPTH_MM = np.float32(65535.0)
 """The greatest depth in a 16-bit image [mm]; greater depths are stored as this number."""
+SONAR_FOLDERS = ("images", "instances", "classes")
+"""The folders of sonar images and masks."""
 FOLDERS = ("images", "depth", "instances", "classes")
 """The folders of colour images, depths, and masks."""
 SUFFIXES = {"png": ".png", "jpeg": ".jpg"}
@@ -35,11 +38,11 @@ def depth_millimetres(depth: npt.NDArray[np.float32]) -> npt.NDArray[np.uint16]:
     return round_millimetres(depth, MAX_DEPTH_MM)
 
 
-def file_paths(index: int, encoding: str) -> dict[str, str]:
+def file_paths(index: int, encoding: str, folders: Sequence[str] = FOLDERS) -> dict[str, str]:
     """Return the path of each file of an image, relative to the data set."""
     return {
         folder: f"{folder}/{index:06d}{SUFFIXES[encoding] if folder == 'images' else '.png'}"
-        for folder in FOLDERS
+        for folder in folders
     }
 
 

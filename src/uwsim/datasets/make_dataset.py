@@ -32,11 +32,12 @@ from .camera import make_camera
 from .card import write_card
 from .contact_sheet import write_contact_sheet
 from .formats import write_formats
-from .image_files import FOLDERS
+from .image_files import FOLDERS, SONAR_FOLDERS
 from .instances import find_instances
 from .request import DatasetRequest
 from .scene_draw import DatasetSources, find_scene_seed
 from .shards import FOLDER, draw_indices, draw_numbers, is_finished, read_records
+from .sonar_images.dataset_sonar import make_sonar
 from .splits import find_split
 from .statistics_plot import write_statistics
 from .workers import OnImage, render_all
@@ -93,6 +94,8 @@ def make_dataset(request: DatasetRequest, progress: Progress | None = None) -> D
         table = find_instances(simulation, request.classes)
         table.find_targets(request.targets)
         make_camera(simulation, request)
+        if request.sonar is not None:
+            make_sonar(simulation, request)
         if request.fog is not None:
             simulation.set_fog(request.fog.low)
     description = {
@@ -104,7 +107,7 @@ def make_dataset(request: DatasetRequest, progress: Progress | None = None) -> D
     _check_directory(request, description)
     _check_disk(request)
     with lock_directory(request.out):
-        for folder in (*FOLDERS, FOLDER):
+        for folder in (*(FOLDERS if request.sonar is None else SONAR_FOLDERS), FOLDER):
             (request.out / folder).mkdir(exist_ok=True)
         write_text(request.out / DESCRIPTION, json.dumps(description, indent=1) + "\n")
         missing_draws = [n for n in draw_numbers(request) if not is_finished(request, n)]

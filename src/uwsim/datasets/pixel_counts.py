@@ -94,15 +94,15 @@ def number_image(
 
 
 @njit
-def round_millimetres(depth: npt.NDArray[np.float32], most: np.float32) -> IdMask:
-    """Return depths [m] as millimetres up to ``most``, rounded to nearest; 0: no surface."""
+def round_millimetres(depth: npt.NDArray[np.float32], limit: np.float32) -> IdMask:
+    """Return depths [m] as millimetres up to ``limit``, rounded to nearest; 0: no surface."""
     height, width = depth.shape
     result = np.zeros((height, width), np.uint16)
     for row in range(height):
         for column in range(width):
             value = depth[row, column]
             if np.isfinite(value):
-                result[row, column] = np.uint16(min(np.rint(value * np.float32(1000.0)), most))
+                result[row, column] = np.uint16(min(np.rint(value * np.float32(1000.0)), limit))
     return result
 
 

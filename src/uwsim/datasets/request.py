@@ -15,6 +15,8 @@ FORMATS = ("plain", "coco", "kitti", "yolo")
 """The formats of labels; ``plain`` is always written."""
 ENCODINGS = ("png", "jpeg")
 """The encodings of colour images."""
+DEFAULT_SIZE = (640, 480)
+"""The default width and height of images [px]."""
 MAX_IMAGES = 1_000_000
 """The greatest number of images of a data set."""
 MAX_VIEWS = 10_000
@@ -66,12 +68,15 @@ class DatasetRequest:
     """The seed of all that is drawn."""
     formats: tuple[str, ...] = ("plain",)
     """The formats of labels, some of `FORMATS`."""
-    size: tuple[int, int] = (640, 480)
+    size: tuple[int, int] = DEFAULT_SIZE
     """The width and height of images [px]; cameras of the scene keep their field of view."""
     camera: str | None = None
     """The camera of the scene whose lens, noise and response the images have; None: a pinhole."""
+    sonar: str | None = None
+    """The imaging sonar of the scene whose pings the images are; None: images of a camera."""
     is_mounted: bool = False
-    """True if images are from the camera's place on its vehicle, not from around the targets."""
+    """True if images are from the place of the camera or the sonar on its vehicle, not from around
+    the targets."""
     field_of_view: float = 50.0
     """The vertical field of view of the pinhole [deg]."""
     targets: tuple[str, ...] = ()
@@ -156,10 +161,20 @@ class DatasetRequest:
                     )
         if min(self.split) < 0.0 or abs(sum(self.split) - 1.0) > 1e-6:
             yield f"--split is {self.split}; expected three shares with the sum 1, as 0.8,0.1,0.1."
-        if self.is_mounted and self.camera is None:
-            yield "--mounted needs --camera NAME, the camera on its vehicle."
+        if self.is_mounted and self.camera is None and self.sonar is None:
+            yield "--mounted needs --camera NAME or --sonar NAME, which is on its vehicle."
+        if self.sonar is not None:
+            yield from self._find_sonar_errors()
         if self.is_mounted and (self.targets or self.distance is not None):
-            yield "--mounted excludes --target and --distance: the vehicle carries the camera."
+            yield "--mounted excludes --target and --distance: the vehicle carries the sensor."
+
+    def _find_sonar_errors(self) -> Iterator[str]:
+        if self.camera is not None:
+            yield "--sonar excludes --camera: make two data sets."
+        if self.size != DEFAULT_SIZE:
+            yield "--sonar excludes --size: an image has the range bins and beams of the sonar."
+        if "kitti" in self.formats:
+            yield "--sonar: KITTI has no sonar images; expected plain, coco or yolo."
 
     @property
     def identity(self) -> dict[str, Any]:

@@ -23,10 +23,17 @@ from ..scene.variation import draw
 from ..simulation import Simulation
 from ..simulation.scenery.renderer_pool import RendererPool
 from .camera import DatasetCamera, make_camera
-from .image_files import depth_millimetres, encode_colour, file_paths, write_file
+from .image_files import SONAR_FOLDERS, depth_millimetres, encode_colour, file_paths, write_file
 from .instances import InstanceTable, find_instances
 from .labels import label_image, round_values
 from .request import DatasetRequest
+from .sonar_images.dataset_sonar import (
+    DatasetSonar,
+    camera_pose_at,
+    make_sonar,
+    world_from_sonar_at,
+)
+from .sonar_images.ping_labels import label_ping
 from .viewpoints import Viewpoint, ViewpointSampler
 
 MAX_SCENE_SEED = 2**31
@@ -77,6 +84,7 @@ class SceneDraw:
         )
         """The compiled scene."""
         self._simulation = simulation = Simulation(self.model, pool=pool, is_blind=True)
+        self._sonar = None if request.sonar is None else make_sonar(simulation, request)
         self._camera: DatasetCamera = make_camera(simulation, request)
         self._updaters: tuple[SceneUpdater, ...] = ()
         self._levels: list[Any] = []
@@ -105,8 +113,13 @@ class SceneDraw:
         self._pose_version = simulation.world.engine.poses.version
         self.table: InstanceTable = find_instances(simulation, self._request.classes)
         """The instances of the scene."""
+        sonar = self._sonar
         self._sampler = ViewpointSampler(
-            simulation, self.table, self._request, self._camera.intrinsics
+            simulation,
+            self.table,
+            self._request,
+            self._camera.intrinsics if sonar is None else sonar.frame,
+            None if sonar is None else sonar.reach,
         )
 
     def close(self) -> None:
@@ -120,6 +133,8 @@ class SceneDraw:
         request, simulation = self._request, self._simulation
         level = self._set_surroundings(index)
         viewpoint = self._choose_viewpoint(index)
+        if self._sonar is not None:
+            return self._write_ping(index, level, viewpoint, self._sonar)
         pose = viewpoint.world_from_camera
         pixels = self._camera.take(simulation, pose, self._stream(index, "noise"))
         labels = label_image(simulation, self.table, pose, self._camera.intrinsics)
@@ -133,15 +148,44 @@ class SceneDraw:
         for folder, content in contents.items():
             write_file(request.out / paths[folder], content)
         return {
+            **self._describe_draw(index, paths, level),
+            "water": self._describe_water(),
+            "target": viewpoint.target,
+            "camera": _round_numbers(self._camera.describe(pose)),
+            "instances": labels.instances,
+        }
+
+    def _write_ping(
+        self, index: int, level: dict[str, float], viewpoint: Viewpoint, sonar: DatasetSonar
+    ) -> dict[str, Any]:
+        """Ping, write the files of the image, and return its record."""
+        pose = world_from_sonar_at(viewpoint.world_from_camera)
+        paths = file_paths(index, self._request.encoding, SONAR_FOLDERS)
+        pixels = sonar.take(pose, self._stream(index, "noise"))
+        labels = label_ping(self._simulation, self.table, sonar, pose)
+        contents = {
+            "images": encode_colour(pixels, self._request.encoding),
+            "instances": encode_png(labels.instance_mask),
+            "classes": encode_png(labels.class_mask),
+        }
+        for folder, content in contents.items():
+            write_file(self._request.out / paths[folder], content)
+        return {
+            **self._describe_draw(index, paths, level),
+            "target": viewpoint.target,
+            "sonar": _round_numbers(sonar.describe(pose)),
+            "instances": labels.instances,
+        }
+
+    def _describe_draw(
+        self, index: int, paths: dict[str, str], level: dict[str, float]
+    ) -> dict[str, Any]:
+        return {
             "index": index,
             "files": paths,
             "scene_seed": self.scene_seed,
             "variations": self._drawn_values,
             "level": level,
-            "water": self._describe_water(),
-            "target": viewpoint.target,
-            "camera": _round_numbers(self._camera.describe(pose)),
-            "instances": labels.instances,
         }
 
     def _stream(self, index: int, name: str) -> np.random.Generator:
@@ -165,6 +209,8 @@ class SceneDraw:
         return values
 
     def _choose_viewpoint(self, index: int) -> Viewpoint:
+        if self._request.is_mounted and self._sonar is not None:
+            return Viewpoint(camera_pose_at(self._sonar.sonar.world_from_sonar), "", 0.0)
         if self._request.is_mounted:
             camera = self._simulation.world.sensors.camera(self._request.camera or "")
             pose = camera.world_from_camera

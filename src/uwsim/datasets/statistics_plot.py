@@ -9,6 +9,7 @@ from typing import Any
 
 from ..analysis.plots.save import save_plot
 from ..analysis.plots.style import PALETTE, styled_figure
+from .sensor_record import sensor_of
 
 N_BINS = 24
 """The number of bins of a histogram."""
@@ -22,16 +23,16 @@ def write_statistics(directory: Path, records: Sequence[dict[str, Any]]) -> None
     """Write ``statistics.png``."""
     instances = [i for record in records for i in record["instances"] if i["visible_pixels"]]
     sizes = [((i["box"][2] - i["box"][0]) * (i["box"][3] - i["box"][1])) ** 0.5 for i in instances]
-    water = [record["water"] for record in records]
+    water = [record["water"] for record in records if "water" in record]
     is_foggy = len({w.get("fog") for w in water}) > 1
     last_values, last_label = (
         ([w["fog"] for w in water], "fog density [1/m]")
         if is_foggy
         else ([w["light_rate"] for w in water], "light rate")
     )
-    if len(set(last_values)) == 1:
-        last_values = [-record["camera"]["position"][2] for record in records]
-        last_label = "camera below z = 0 [m]"
+    if len(set(last_values)) <= 1:
+        last_values = [-sensor_of(record)["position"][2] for record in records]
+        last_label = "sensor below z = 0 [m]"
     with styled_figure((7.2, 3.6)) as figure:
         axes = figure.subplots(2, 3).flatten()
         counts = Counter(i["class"] for i in instances).most_common(MAX_CLASSES)

@@ -37,6 +37,10 @@ MIN_DEPTH = 0.05
 """The least depth of the camera below the surface of the water [m]."""
 DEFAULT_NEAREST, DEFAULT_FARTHEST = 1.3, 4.0
 """The default distances, over the distance at which the target fills the height of the image."""
+SONAR_NEAREST = 4.0
+"""The least default distance of a sonar, over the half diagonal of the target [1]."""
+SONAR_FARTHEST = 4.0
+"""The greatest default distance of a sonar, over the least [1]."""
 AIM_SHARE = 0.5
 """The share of the half edges of a target's box within which the camera aims [1]."""
 HIT_TOLERANCE = 0.02
@@ -73,7 +77,8 @@ class ViewpointSampler:
         simulation: the scene.
         table: its instances.
         request: the request, with the targets and the ranges.
-        intrinsics: the camera.
+        intrinsics: the camera, or the frame of a sonar.
+        reach: the range of a sonar [m]; None: a camera.
     """
 
     def __init__(
@@ -82,7 +87,9 @@ class ViewpointSampler:
         table: InstanceTable,
         request: DatasetRequest,
         intrinsics: Intrinsics,
+        reach: float | None = None,
     ) -> None:
+        self._reach = reach
         self._rays = simulation.world.rays
         self._surface_height = simulation.world.model.scene.ocean_state.ocean_surface_height
         self._table, self._request, self._intrinsics = table, request, intrinsics
@@ -109,6 +116,10 @@ class ViewpointSampler:
         )
 
     def _default_distance(self, target: Instance) -> Range:
+        if self._reach is not None:
+            low = max(SONAR_NEAREST * target.radius, 2.0 * self._request.clearance)
+            low = min(low, 0.5 * self._reach)
+            return Range(low, min(SONAR_FARTHEST * low, 0.9 * self._reach))
         i = self._intrinsics
         filling = target.radius * min(i.fx / i.width, i.fy / i.height) * 2.0 + target.radius * 0.5
         least_distance = max(DEFAULT_NEAREST * filling, 2.0 * self._request.clearance, 2.0 * i.near)

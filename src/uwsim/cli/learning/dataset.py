@@ -43,9 +43,18 @@ class CameraOptions:
             "[a pinhole].",
         ),
     ] = None
+    sonar: Annotated[
+        str | None,
+        option(
+            INPUT,
+            "--sonar",
+            metavar="NAME",
+            help="The imaging sonar of the scene whose pings are the images, instead of a camera.",
+        ),
+    ] = None
     is_mounted: Annotated[
         bool,
-        option(INPUT, "--mounted", help="Images from the camera's place on its vehicle."),
+        option(INPUT, "--mounted", help="Images from the sensor's place on its vehicle."),
     ] = False
     size: Annotated[
         str, option(OUTPUT, "--size", metavar="WxH", help="Size of the images [px].")
@@ -223,6 +232,7 @@ def dataset(
         formats=read_formats(labels.format or ()),
         size=size,
         camera=cameras.camera,
+        sonar=cameras.sonar,
         is_mounted=cameras.is_mounted,
         field_of_view=cameras.field_of_view,
         targets=tuple(cameras.target or ()),

@@ -16,6 +16,7 @@ import numpy as np
 from ...results.atomic_file import write_text
 from ..image_files import read_values
 from ..request import DatasetRequest
+from ..sensor_record import sensor_of
 from ..splits import SPLITS
 from .run_lengths import compress, run_lengths
 
@@ -54,8 +55,8 @@ def make_document(
             {
                 "id": record["index"],
                 "file_name": record["files"]["images"],
-                "width": record["camera"]["width"],
-                "height": record["camera"]["height"],
+                "width": sensor_of(record)["width"],
+                "height": sensor_of(record)["height"],
             }
             for record in records
         ],
@@ -85,7 +86,11 @@ def _make_annotations(
                 "image_id": record["index"],
                 "category_id": 1 + list(classes).index(instance["class"]),
                 "bbox": corner_and_size(instance["box"]),
-                "amodal_bbox": corner_and_size(instance["amodal_box"]),
+                **(
+                    {"amodal_bbox": corner_and_size(instance["amodal_box"])}
+                    if "amodal_box" in instance
+                    else {}
+                ),
                 "area": instance["visible_pixels"],
                 "iscrowd": 0,
                 "segmentation": {"size": [height, width], "counts": compress(lengths)},

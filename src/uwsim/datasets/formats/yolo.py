@@ -13,6 +13,7 @@ from typing import Any
 
 from ...results.atomic_file import write_text
 from ..request import DatasetRequest
+from ..sensor_record import sensor_of
 
 FOLDER = "labels"
 
@@ -36,7 +37,7 @@ def write_yolo(
 
 def label_lines(record: dict[str, Any], classes: Sequence[str]) -> list[str]:
     """Return the lines of an image, one for each visible instance."""
-    width, height = record["camera"]["width"], record["camera"]["height"]
+    width, height = sensor_of(record)["width"], sensor_of(record)["height"]
     lines = []
     for instance in record["instances"]:
         if instance["box"] is None:

@@ -31,7 +31,7 @@ from ...rays import Hits
 from ...world import SensorWorld
 from .kernel import Singles, add_echoes, compute_amplitudes
 from .ray_grid import RayGrid
-from .small_targets import Discs, Fan, add_small_echoes, create_lattice, drop_hits, find_discs
+from .small_targets import Fan, Lattice, add_small_echoes, create_lattice, drop_hits, find_discs
 from .spec import SonarSpec
 
 SURFACE_REFLECTION = 0.631
@@ -63,6 +63,22 @@ class Ping(NamedTuple):
     surface."""
     bins: tuple[float, float, float]
     """The minimum range [m], the bin size [m], and the two-way absorption [1/m, neper of power]."""
+
+
+class Scan(NamedTuple):
+    """The hits of the rays of a ping."""
+
+    hits: Hits
+    """The hits of the rays of the grid, outside of small targets."""
+    to_surface: Array
+    """The distance to the water's surface of each ray of the grid, (n,) [m]; inf: none."""
+    small_targets: tuple[Lattice, Hits] | None
+    """The rays to small targets and their hits; None: there are no small targets."""
+
+    @property
+    def all_hits(self) -> tuple[Hits, ...]:
+        """The hits of the grid, and those of small targets."""
+        return (self.hits,) if self.small_targets is None else (self.hits, self.small_targets[1])
 
 
 class Echoes:
@@ -130,27 +146,85 @@ class Echoes:
 
     def power(self, world_from_sonar: Pose) -> Power:
         """Return the mean power of the echoes of a ping."""
-        spec, grid, rays = self._spec, self.grid, self._world.rays
+        ping = self._make_ping(world_from_sonar)
+        scan = self._scan(ping)
+        power = self._add_direct(ping, scan, ping.materials)
+        if self._spec.multipath and np.isfinite(scan.to_surface).any():
+            self._add_multipath(power.columns, ping, scan.to_surface)
+        return power
+
+    def separate_amplitudes(
+        self, world_from_sonar: Pose, groups: npt.NDArray[np.integer]
+    ) -> dict[int, Singles]:
+        """Return the root mean square amplitudes of the echoes of each group of surfaces alone.
+
+        Surfaces of other groups cast shadows. Without speckle, noise and multipath.
+
+        Args:
+            world_from_sonar: the pose of the sonar.
+            groups: the group of each surface, from 1; 0: no group. Surfaces beyond are in none.
+
+        Returns:
+            The amplitudes of the groups with hits, by group, (bins, n) [Pa].
+        """
+        ping = self._make_ping(world_from_sonar)
+        scan = self._scan(ping)
+        owners = np.zeros(len(ping.materials), np.int64)
+        n = min(len(groups), len(owners) - 1)  # the last is the water's surface
+        owners[:n] = groups[:n]
+        hit_surfaces = [hits.surface[np.isfinite(hits.distance)] for hits in scan.all_hits]
+        hit_groups = np.unique(owners[np.concatenate(hit_surfaces)])
+        no_speckle = np.ones(1, dtype=np.float32)
+        integers = np.zeros((self._spec.bins, self._fan.n), np.uint16)
+        grid = self.grid
+        return {
+            group: compute_amplitudes(
+                *self._add_direct(ping, scan, ping.materials * (owners == group)[:, None]),
+                grid.patterns,
+                grid.stride,
+                0.0,
+                integers,
+                no_speckle,
+            )
+            for group in hit_groups.tolist()
+            if group != 0
+        }
+
+    def _make_ping(self, world_from_sonar: Pose) -> Ping:
+        spec, rays = self._spec, self._world.rays
         loss = 0.2 * math.log(10.0) * self.absorption(world_from_sonar)
-        ping = Ping(
+        return Ping(
             world_from_sonar,
             10.0 ** (0.1 * (spec.source_level + MICROPASCAL)),
             _material_numbers([*rays.materials, MATERIALS["waterSurface"]]),
             (spec.min_range, self.bin_size, loss),
         )
-        power = np.zeros((spec.bins, len(grid.azimuths)), dtype=np.float32, order="F")
-        hits, to_surface = self._cast(ping, grid.directions)
-        discs = find_discs(rays.balls(), world_from_sonar, spec.range, grid)
-        drop_hits(hits.distance, hits.surface, grid.directions, discs)
-        add_echoes(
-            power, hits, grid.directions, grid.rows * (ping.level, 1.0), ping.materials, ping.bins
+
+    def _scan(self, ping: Ping) -> Scan:
+        """Cast the rays of a ping, those of the grid and those to small targets."""
+        hits, to_surface = self._cast(ping, self.grid.directions)
+        discs = find_discs(
+            self._world.rays.balls(), ping.world_from_sonar, self._spec.range, self.grid
         )
+        drop_hits(hits.distance, hits.surface, self.grid.directions, discs)
+        if not len(discs.radius):
+            return Scan(hits, to_surface, None)
+        lattice = create_lattice(discs, self._fan, self.grid.max_elevation)
+        return Scan(hits, to_surface, (lattice, self._cast(ping, lattice.directions)[0]))
+
+    def _add_direct(self, ping: Ping, scan: Scan, materials: Array) -> Power:
+        """Return the power of the echoes on the direct path."""
+        spec, grid = self._spec, self.grid
+        power = np.zeros((spec.bins, len(grid.azimuths)), dtype=np.float32, order="F")
+        rows = grid.rows * (ping.level, 1.0)
+        add_echoes(power, scan.hits, grid.directions, rows, materials, ping.bins)
         small_targets = np.zeros((0, 0), dtype=np.float32)
-        if len(discs.radius):
+        if scan.small_targets is not None:
+            lattice, hits = scan.small_targets
             small_targets = np.zeros((spec.bins, self._fan.n), dtype=np.float32)
-            self._add_small(small_targets, ping, discs)
-        if spec.multipath and np.isfinite(to_surface).any():
-            self._add_multipath(power, ping, to_surface)
+            add_small_echoes(
+                small_targets, hits, lattice, self._fan, ping.level, materials, ping.bins
+            )
         return Power(power, small_targets)
 
     def _cast(self, ping: Ping, directions: Array) -> tuple[Hits, Array]:
@@ -173,12 +247,6 @@ class Echoes:
             hits.distance[is_surface], normal[is_surface] = to_surface[is_surface], -up
             hits.surface[is_surface] = len(ping.materials) - 1
         return Hits(hits.distance, normal, hits.surface), to_surface
-
-    def _add_small(self, power: Singles, ping: Ping, discs: Discs) -> None:
-        """Add the echoes of small targets to the power of each bin and beam."""
-        rays = create_lattice(discs, self._fan, self.grid.max_elevation)
-        hits, _ = self._cast(ping, rays.directions)
-        add_small_echoes(power, hits, rays, self._fan, ping.level, ping.materials, ping.bins)
 
     def _add_multipath(self, power: Singles, ping: Ping, to_surface: Array) -> None:
         """Add echoes that are reflected at the water's surface on the way there and back."""

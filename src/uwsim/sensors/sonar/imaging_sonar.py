@@ -22,7 +22,7 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ...base.geometry import Array
+from ...base.geometry import Array, Pose
 from ...base.record import Record
 from ...messages import Image, ProjectedSonarImage, image
 from ...schema import element
@@ -92,11 +92,32 @@ class ImagingSonar:
     ) -> None:
         self._spec, self._mount = spec, mount
         azimuths = spec.azimuths
-        self._echoes = Echoes(spec, world, azimuths, float(azimuths[1] - azimuths[0]))
-        self._ranges, self._directions = self._echoes.ranges, level_directions(azimuths)
+        self.echoes = Echoes(spec, world, azimuths, float(azimuths[1] - azimuths[0]))
+        """The echoes of pings from any pose."""
+        self._ranges, self._directions = self.echoes.ranges, level_directions(azimuths)
         self._azimuths, self._levels = azimuths, GreyLevels(spec, self._ranges)
         self.state = ImagingState(rng, np.zeros((spec.bins, spec.beams), np.float32))
         """The state: the last ping, and the generator of speckle and noise."""
+
+    @property
+    def spec(self) -> ImagingSonarSpec:
+        """The spec of the sonar."""
+        return self._spec
+
+    @property
+    def world_from_sonar(self) -> Pose:
+        """The pose of the sonar in W: x ahead, y to port, z up."""
+        return self._mount.world_from_body
+
+    def ping_grey(self, world_from_sonar: Pose, seed: int) -> npt.NDArray[np.uint8]:
+        """Return the grey values of a ping from any pose, (bins, beams); the state is unchanged.
+
+        Args:
+            world_from_sonar: the pose of the sonar.
+            seed: the seed of the speckle and the noise.
+        """
+        amplitudes = self.echoes.ping(world_from_sonar, seed)
+        return self._levels.to_grey(amplitudes, self.echoes.absorption(world_from_sonar))
 
     @cached_property
     def _fan(self) -> FanImage:
@@ -105,18 +126,18 @@ class ImagingSonar:
     def sample(self, time: float) -> ProjectedSonarImage:
         """Ping at ``time`` [s]."""
         pose, spec = self._mount.world_from_body, self._spec
-        self.state.last_ping = self._echoes.ping(pose, int(self.state.rng.integers(2**63)))
+        self.state.last_ping = self.echoes.ping(pose, int(self.state.rng.integers(2**63)))
         return sonar_image(
             self.state.last_ping,
             spec,
             directions=self._directions,
             ranges=self._ranges,
-            sound_speed=self._echoes.sound_speed(pose),
+            sound_speed=self.echoes.sound_speed(pose),
             time=time,
         )
 
     def image(self, time: float) -> Image:
         """Return the last ping as a fan with ahead at the top, stamped ``time`` [s]."""
-        absorption = self._echoes.absorption(self._mount.world_from_body)
+        absorption = self.echoes.absorption(self._mount.world_from_body)
         greys = self._levels.to_grey(self.state.last_ping, absorption)
         return image(self._fan.draw(greys), time=time, frame_id=self._spec.name)

@@ -1,0 +1,1 @@
+"""Sonar images of data sets, and their labels."""
