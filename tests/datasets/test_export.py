@@ -87,7 +87,7 @@ def test_lerobot_files_are_read_back(recording: Path, tmp_path: Path) -> None:
     pytest.importorskip("imageio_ffmpeg")
     out = tmp_path / "set"
     export_lerobot(
-        recording,
+        [recording],
         out,
         observations=[STATE],
         actions=[COMMAND],
@@ -121,6 +121,38 @@ def test_lerobot_files_are_read_back(recording: Path, tmp_path: Path) -> None:
     assert frames[0].shape == (48, 64, 3)
     greys = [frame.mean() for frame in frames]
     assert greys == pytest.approx(20.0 * np.arange(11), abs=6.0)
+
+
+def test_two_recordings_are_two_episodes(
+    recording: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    pq = pytest.importorskip("pyarrow.parquet")
+    pytest.importorskip("imageio_ffmpeg")
+    out = tmp_path / "set"
+    topics = ["--observation", STATE, "--action", COMMAND, "--camera", CAMERA]
+    command = ["export", str(recording), str(recording), "--lerobot", *topics, "-o", str(out)]
+    assert main(command) == 0
+    assert "2 episodes of 22 steps" in capfd.readouterr().out
+    info = json.loads((out / "meta/info.json").read_text())
+    assert (info["total_episodes"], info["total_frames"]) == (2, 22)
+    assert info["splits"] == {"train": "0:2"}
+    table = pq.read_table(out / "data/chunk-000/file-000.parquet").to_pydict()
+    assert table["index"] == list(range(22))
+    assert table["episode_index"] == [0] * 11 + [1] * 11
+    assert table["frame_index"] == [*range(11), *range(11)]
+    assert table["observation.state"][:11] == table["observation.state"][11:]
+    rows = pq.read_table(out / "meta/episodes/chunk-000/file-000.parquet").to_pylist()
+    assert [(row["dataset_from_index"], row["dataset_to_index"]) for row in rows] == [
+        (0, 11),
+        (11, 22),
+    ]
+    name = "videos/observation.images.camera"
+    assert rows[1][f"{name}/from_timestamp"] == rows[0][f"{name}/to_timestamp"] == 1.1
+    film = cv2.VideoCapture(str(out / name / "chunk-000/file-000.mp4"))
+    assert int(film.get(cv2.CAP_PROP_FRAME_COUNT)) == 22
+    film.release()
+    assert main([*command[:3], "--csv", "-o", str(tmp_path / "t")]) == 2
+    assert "only --lerobot takes more than one" in capfd.readouterr().err
 
 
 def test_minari_reads_the_episode(

@@ -12,10 +12,11 @@ from ...errors import BadSetting
 from ..options.help_texts import INPUT, OUTPUT, option
 
 RecordingArgument = Annotated[
-    Path,
+    list[Path],
     typer.Argument(
-        metavar="RESULT|RECORDING",
-        help="A recording (.mcap, .bag, .db3, a rosbag2), or a result directory for --csv.",
+        metavar="RESULT|RECORDING...",
+        help="A recording (.mcap, .bag, .db3, a rosbag2), or a result directory for --csv. "
+        "--lerobot takes several recordings, one for each episode.",
     ),
 ]
 
@@ -69,7 +70,7 @@ class StepOptions:
 
 
 def export(
-    recording: RecordingArgument,
+    recordings: RecordingArgument,
     *,
     formats: ExportFormats,
     steps: StepOptions,
@@ -81,13 +82,17 @@ def export(
 
     --csv of a result writes its rows.
 
-    A step has the newest message of each topic at its time. A recording is one episode.
+    A step has the newest message of each topic at its time. A recording is one episode; --lerobot
+    takes several.
     """
     from ...datasets.export.result_rows import export_rows, is_result
 
     n_formats = formats.csv + formats.lerobot + formats.minari
     if n_formats != 1:
         raise BadSetting("Choose one of --csv, --lerobot and --minari.")
+    if len(recordings) > 1 and not formats.lerobot:
+        raise BadSetting(f"{len(recordings)} recordings: only --lerobot takes more than one.")
+    recording = next(filter(is_result, recordings), recordings[0])
     if is_result(recording):
         if not formats.csv:
             raise BadSetting(
@@ -107,8 +112,8 @@ def export(
     if formats.lerobot:
         from ...datasets.export.lerobot import export_lerobot
 
-        episode = export_lerobot(
-            recording,
+        episodes = export_lerobot(
+            recordings,
             out,
             observations=observations,
             actions=actions,
@@ -123,8 +128,11 @@ def export(
         identifier, episode = export_minari(
             recording, out, observations=observations, actions=actions, rate=steps.rate
         )
+        episodes = [episode]
         name = f"Minari {identifier}"
-    print(f"{name}: 1 episode of {len(episode.times)} steps at {steps.rate:g} Hz; written: {out}")
+    n_steps = sum(len(episode.times) for episode in episodes)
+    count = "1 episode" if len(episodes) == 1 else f"{len(episodes)} episodes"
+    print(f"{name}: {count} of {n_steps} steps at {steps.rate:g} Hz; written: {out}")
 
 
 def add_slash(topic: str) -> str:

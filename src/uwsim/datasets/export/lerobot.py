@@ -7,8 +7,9 @@
     meta/info.json  meta/stats.json  meta/tasks.parquet
     meta/episodes/chunk-000/file-000.parquet
 
-One recording is one episode. The files follow the layout of LeRobot's data sets of codebase version
-v3.0; they are read back with pyarrow, not with LeRobot, which needs torch.
+Each recording is one episode; the episodes follow each other in the files. The files follow the
+layout of LeRobot's data sets of codebase version v3.0; they are read back with pyarrow, not with
+LeRobot, which needs torch.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ def check_extras() -> None:
 
 
 def export_lerobot(
-    recording: Path,
+    recordings: Sequence[Path],
     out: Path,
     *,
     observations: Sequence[str],
@@ -55,58 +56,85 @@ def export_lerobot(
     cameras: Sequence[str] = (),
     rate: float = 10.0,
     task: str = "",
-) -> Episode:
-    """Write a data set of one episode.
+) -> list[Episode]:
+    """Write a data set with an episode for each recording; return the episodes.
 
     Args:
-        recording: the recording.
+        recordings: the recordings, in the order of the episodes.
         out: the new folder.
         observations: the topics of ``observation.state``.
         actions: the topics of ``action``.
-        cameras: the topics of images, each of which becomes a film.
+        cameras: the topics of images, each of which becomes a film of all episodes.
         rate: the rate of steps [Hz].
         task: the description of the task in words.
 
     Raises:
         MissingExtra: pyarrow or ffmpeg is not installed.
-        UwsimError: the recording, a topic or the folder is invalid.
+        UwsimError: a recording, a topic or the folder is invalid, or recordings differ in the
+            fields of a topic or in the size of images.
     """
     check_extras()
     check_folder(out)
-    episode = read_episode(recording, observations, actions, rate)
+    episodes = [read_episode(path, observations, actions, rate) for path in recordings]
+    _check_fields(recordings, episodes)
     sizes = {}
     for topic in cameras:
         name = f"observation.images.{topic.strip('/').replace('/', '.')}"
         path = out / "videos" / name / f"{CHUNK}.mp4"
-        sizes[name] = _write_film(recording, topic, episode, path)
-    _write_steps(out, episode)
-    _write_meta(out, episode, sizes, task or recording.stem)
-    return episode
+        sizes[name] = _write_film(recordings, topic, episodes, path)
+    _write_steps(out, episodes)
+    _write_meta(out, episodes, sizes, task or recordings[0].stem)
+    return episodes
 
 
-def _columns_of(episode: Episode) -> dict[str, npt.NDArray[Any]]:
-    n = len(episode.times)
+def _check_fields(recordings: Sequence[Path], episodes: Sequence[Episode]) -> None:
+    """Raise BadSetting if an episode has other numbers than the first."""
+    for path, episode in zip(recordings, episodes, strict=True):
+        for names, first_names in (
+            (episode.observation_names, episodes[0].observation_names),
+            (episode.action_names, episodes[0].action_names),
+        ):
+            if names != first_names:
+                difference = sorted(set(names) ^ set(first_names))
+                raise BadSetting(
+                    f"{path}: has other numbers than {recordings[0]}: "
+                    f"{', '.join(difference[:4]) or 'in another order'}."
+                )
+
+
+def _columns_of(episodes: Sequence[Episode]) -> dict[str, npt.NDArray[Any]]:
+    lengths = [len(episode.times) for episode in episodes]
+    frame_indices = np.concatenate([np.arange(n, dtype=np.int64) for n in lengths])
+    n = sum(lengths)
     return {
-        "timestamp": (np.arange(n) / episode.rate).astype(np.float32),
-        "frame_index": np.arange(n, dtype=np.int64),
-        "episode_index": np.zeros(n, np.int64),
+        "timestamp": (frame_indices / episodes[0].rate).astype(np.float32),
+        "frame_index": frame_indices,
+        "episode_index": np.repeat(np.arange(len(lengths), dtype=np.int64), lengths),
         "index": np.arange(n, dtype=np.int64),
         "task_index": np.zeros(n, np.int64),
     }
 
 
-def _write_steps(out: Path, episode: Episode) -> None:
+def _write_steps(out: Path, episodes: Sequence[Episode]) -> None:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
     path = out / "data" / f"{CHUNK}.parquet"
     path.parent.mkdir(parents=True, exist_ok=True)
     table = {
-        "observation.state": _vectors(episode.observations),
-        "action": _vectors(episode.actions),
-        **{name: pa.array(values) for name, values in _columns_of(episode).items()},
+        "observation.state": _vectors(_observations_of(episodes)),
+        "action": _vectors(_actions_of(episodes)),
+        **{name: pa.array(values) for name, values in _columns_of(episodes).items()},
     }
     pq.write_table(pa.table(table), path)
+
+
+def _observations_of(episodes: Sequence[Episode]) -> npt.NDArray[np.float32]:
+    return np.concatenate([episode.observations for episode in episodes])
+
+
+def _actions_of(episodes: Sequence[Episode]) -> npt.NDArray[np.float32]:
+    return np.concatenate([episode.actions for episode in episodes])
 
 
 def _vectors(values: npt.NDArray[np.float32]) -> Any:
@@ -115,40 +143,58 @@ def _vectors(values: npt.NDArray[np.float32]) -> Any:
     return pa.FixedSizeListArray.from_arrays(pa.array(values.reshape(-1)), values.shape[1])
 
 
-def _write_meta(out: Path, episode: Episode, sizes: dict[str, tuple[int, int]], task: str) -> None:
+def _write_meta(
+    out: Path, episodes: Sequence[Episode], sizes: dict[str, tuple[int, int]], task: str
+) -> None:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    n = len(episode.times)
     folder = out / "meta" / "episodes" / "chunk-000"
     folder.mkdir(parents=True)
-    row: dict[str, list[Any]] = {
-        "episode_index": [0],
-        "tasks": [[task]],
-        "length": [n],
-        "data/chunk_index": [0],
-        "data/file_index": [0],
-        "dataset_from_index": [0],
-        "dataset_to_index": [n],
-        "meta/episodes/chunk_index": [0],
-        "meta/episodes/file_index": [0],
-    }
-    for name in sizes:
-        row[f"videos/{name}/chunk_index"] = [0]
-        row[f"videos/{name}/file_index"] = [0]
-        row[f"videos/{name}/from_timestamp"] = [0.0]
-        row[f"videos/{name}/to_timestamp"] = [n / episode.rate]
-    stats = {
-        "observation.state": find_stats(episode.observations),
-        "action": find_stats(episode.actions),
-    }
-    for feature, values in stats.items():
-        row |= {f"stats/{feature}/{name}": [numbers] for name, numbers in values.items()}
-    pq.write_table(pa.table(row), folder / "file-000.parquet")
+    starts = np.cumsum([0, *(len(episode.times) for episode in episodes)]).tolist()
+    rows = [
+        _describe_episode(episode, number, starts[number], sizes, task)
+        for number, episode in enumerate(episodes)
+    ]
+    table = {name: [row[name] for row in rows] for name in rows[0]}
+    pq.write_table(pa.table(table), folder / "file-000.parquet")
     tasks = pa.table({"task_index": pa.array([0], pa.int64()), "task": [task]})
     pq.write_table(tasks, out / "meta" / "tasks.parquet")
+    stats = {
+        "observation.state": find_stats(_observations_of(episodes)),
+        "action": find_stats(_actions_of(episodes)),
+    }
     write_text(out / "meta" / "stats.json", json.dumps(stats, indent=1) + "\n")
-    write_text(out / "meta" / "info.json", json.dumps(_info(episode, sizes), indent=1) + "\n")
+    write_text(out / "meta" / "info.json", json.dumps(_info(episodes, sizes), indent=1) + "\n")
+
+
+def _describe_episode(
+    episode: Episode, number: int, start: int, sizes: dict[str, tuple[int, int]], task: str
+) -> dict[str, Any]:
+    """Return the row of an episode, whose first step has the index ``start`` in the data set."""
+    end = start + len(episode.times)
+    row: dict[str, Any] = {
+        "episode_index": number,
+        "tasks": [task],
+        "length": len(episode.times),
+        "data/chunk_index": 0,
+        "data/file_index": 0,
+        "dataset_from_index": start,
+        "dataset_to_index": end,
+        "meta/episodes/chunk_index": 0,
+        "meta/episodes/file_index": 0,
+    }
+    for name in sizes:
+        row[f"videos/{name}/chunk_index"] = 0
+        row[f"videos/{name}/file_index"] = 0
+        row[f"videos/{name}/from_timestamp"] = start / episode.rate
+        row[f"videos/{name}/to_timestamp"] = end / episode.rate
+    for feature, values in (
+        ("observation.state", episode.observations),
+        ("action", episode.actions),
+    ):
+        row |= {f"stats/{feature}/{name}": n for name, n in find_stats(values).items()}
+    return row
 
 
 def find_stats(values: npt.NDArray[np.float32]) -> dict[str, list[Any]]:
@@ -166,8 +212,8 @@ def find_stats(values: npt.NDArray[np.float32]) -> dict[str, list[Any]]:
     return stats
 
 
-def _info(episode: Episode, sizes: dict[str, tuple[int, int]]) -> dict[str, Any]:
-    n = len(episode.times)
+def _info(episodes: Sequence[Episode], sizes: dict[str, tuple[int, int]]) -> dict[str, Any]:
+    episode = episodes[0]
     features: dict[str, Any] = {
         "observation.state": _feature("float32", episode.observation_names),
         "action": _feature("float32", episode.action_names),
@@ -188,20 +234,20 @@ def _info(episode: Episode, sizes: dict[str, tuple[int, int]]) -> dict[str, Any]
                 "has_audio": False,
             },
         }
-    for name, values in _columns_of(episode).items():
+    for name, values in _columns_of(episodes).items():
         features[name] = {"dtype": str(values.dtype), "shape": [1], "names": None}
     video_path = "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4"
     return {
         "codebase_version": CODEBASE_VERSION,
         "robot_type": "uwsim",
-        "total_episodes": 1,
-        "total_frames": n,
+        "total_episodes": len(episodes),
+        "total_frames": sum(len(episode.times) for episode in episodes),
         "total_tasks": 1,
         "chunks_size": 1000,
         "data_files_size_in_mb": 100,
         "video_files_size_in_mb": 200,
         "fps": int(episode.rate) if episode.rate.is_integer() else episode.rate,
-        "splits": {"train": "0:1"},
+        "splits": {"train": f"0:{len(episodes)}"},
         "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
         "video_path": video_path if sizes else None,
         "features": features,
@@ -212,17 +258,26 @@ def _feature(kind: str, names: Sequence[str]) -> dict[str, Any]:
     return {"dtype": kind, "shape": [len(names)], "names": list(names)}
 
 
-def _write_film(recording: Path, topic: str, episode: Episode, path: Path) -> tuple[int, int]:
+def _write_film(
+    recordings: Sequence[Path], topic: str, episodes: Sequence[Episode], path: Path
+) -> tuple[int, int]:
     """Write the newest image at each step as a film; return its width and height [px]."""
     encoder: FfmpegEncoder | None = None
     size = (0, 0)
     is_complete = False
     try:
-        for pixels in _images_at_steps(recording, topic, episode):
-            if encoder is None:
-                size = (pixels.shape[1] // 2 * 2, pixels.shape[0] // 2 * 2)
-                encoder = FfmpegEncoder(path, size, episode.rate, ())
-            encoder.add(as_yuv(np.ascontiguousarray(pixels[: size[1], : size[0]])))
+        for recording, episode in zip(recordings, episodes, strict=True):
+            for pixels in _images_at_steps(recording, topic, episode):
+                new_size = (pixels.shape[1] // 2 * 2, pixels.shape[0] // 2 * 2)
+                if encoder is None:
+                    size = new_size
+                    encoder = FfmpegEncoder(path, size, episode.rate, ())
+                if new_size != size:
+                    raise BadSetting(
+                        f"{recording}: images of {topic} have {new_size[0]}x{new_size[1]} px, and "
+                        f"{size[0]}x{size[1]} px before; a film has one size."
+                    )
+                encoder.add(as_yuv(np.ascontiguousarray(pixels[: size[1], : size[0]])))
         is_complete = True
     finally:
         if encoder is not None:
