@@ -14,7 +14,7 @@ from ..options.help_texts import INPUT, OUTPUT, option
 RecordingArgument = Annotated[
     list[Path],
     typer.Argument(
-        metavar="RESULT|RECORDING...",
+        metavar="RESULT|RECORDING",
         help="A recording (.mcap, .bag, .db3, a rosbag2), or a result directory for --csv. "
         "--lerobot takes several recordings, one for each episode.",
     ),
