@@ -70,7 +70,7 @@ def request_of(scene: Path, out: Path, **values: Any) -> DatasetRequest:
 
 
 @pytest.fixture(scope="module")
-def mounted(scene: Path) -> Path:
+def mounted_set(scene: Path) -> Path:
     out = scene.parent / "mounted"
     make_dataset(request_of(scene, out, is_mounted=True, formats=("plain", "coco")))
     return out
@@ -82,10 +82,10 @@ def record_of(folder: Path) -> dict[str, Any]:
 
 
 def test_ids_agree_with_rays_that_are_cast_at_the_ball_and_the_box(
-    scene: Path, mounted: Path
+    scene: Path, mounted_set: Path
 ) -> None:
-    record = record_of(mounted)
-    mask = read_values(mounted / record["files"]["instances"])
+    record = record_of(mounted_set)
+    mask = read_values(mounted_set / record["files"]["instances"])
     sonar, numbers = record["sonar"], {i["name"]: i["number"] for i in record["instances"]}
     assert set(numbers) == {"ball", "box"}
     columns = np.repeat(np.arange(61), 11)  # 11 azimuths in each beam
@@ -130,9 +130,9 @@ def test_ids_agree_with_rays_that_are_cast_at_the_ball_and_the_box(
     assert set(np.unique(mask)) == {0, *numbers.values()}
 
 
-def test_boxes_counts_and_directions_are_those_of_the_mask(mounted: Path) -> None:
-    record = record_of(mounted)
-    mask = read_values(mounted / record["files"]["instances"])
+def test_boxes_counts_and_directions_are_those_of_the_mask(mounted_set: Path) -> None:
+    record = record_of(mounted_set)
+    mask = read_values(mounted_set / record["files"]["instances"])
     for instance in record["instances"]:
         rows, columns = np.nonzero(mask == instance["number"])
         assert instance["visible_pixels"] == len(rows)
@@ -152,13 +152,13 @@ def test_boxes_counts_and_directions_are_those_of_the_mask(mounted: Path) -> Non
     assert flag == 2
 
 
-def test_coco_has_the_mask_of_each_instance(mounted: Path) -> None:
-    documents = [json.loads(path.read_text()) for path in sorted((mounted / "coco").iterdir())]
+def test_coco_has_the_mask_of_each_instance(mounted_set: Path) -> None:
+    documents = [json.loads(path.read_text()) for path in sorted((mounted_set / "coco").iterdir())]
     images = [image for document in documents for image in document["images"]]
     assert [(image["width"], image["height"]) for image in images] == [(61, 190)]
     annotations = [a for document in documents for a in document["annotations"]]
     assert {a["area"] for a in annotations} == {
-        i["visible_pixels"] for i in record_of(mounted)["instances"]
+        i["visible_pixels"] for i in record_of(mounted_set)["instances"]
     }
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..model.scene_model import SceneModel
 from ..version import __version__
+from .keypoints import KEYPOINTS_FILE
 from .request import DatasetRequest, Range
 from .splits import SPLITS
 
@@ -84,6 +85,7 @@ def command_of(request: DatasetRequest) -> list[str]:
         command += ["--set", f"{path}={value}"]
     for pattern, label in request.classes:
         command += ["--class", f"{pattern}={label}"]
+    command += ["--keypoints", KEYPOINTS_FILE] if request.keypoints else []
     if request.split != default.split:
         command += ["--split", ",".join(f"{share:g}" for share in request.split)]
     formats = [name for name in request.formats if name != "plain"]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..base.numerics.linear import cross, dot, length, transform_points
 from ..errors import BadSetting, UnknownName
 from ..model.parts import Part
 from ..simulation import Simulation
+from .keypoints import Keypoints
 
 MAX_CLASSES = 255
 """The greatest number of classes: semantic masks have 8 bit, and 0 is no surface."""
@@ -22,6 +23,10 @@ MAX_RADIUS = 10.0
 """The half diagonal of a box above which an object is no target by default [m]."""
 N_SURFACE_POINTS = 64
 """The number of points of an instance's surface by which its visibility is estimated."""
+CORNER_TOLERANCE = 0.05
+"""The distance, over the diagonal of a box, by which a surface in front of a corner hides it."""
+POINT_TOLERANCE = 0.02
+"""The distance, over the diagonal of a box, by which a surface hides a declared keypoint."""
 SAND = "sand"
 """The class of heaps of sand."""
 
@@ -88,11 +93,31 @@ class InstanceTable:
     """The number of the instance of each id of a rendered image."""
     class_numbers: npt.NDArray[np.uint8]
     """The number of the class of each id of a rendered image."""
+    declared_points: Mapping[str, Array] = field(default_factory=dict)
+    """The declared keypoints of classes, in the frames of their instances, (n, 3) [m]."""
 
     @property
     def boxed_instances(self) -> tuple[Instance, ...]:
         """The instances that have boxes."""
         return tuple(instance for instance in self.instances if instance.has_boxes)
+
+    def find_keypoints(self, instance: Instance) -> tuple[Array, float]:
+        """Return the keypoints of an instance in W, (n, 3) [m], and the tolerance of their flags.
+
+        A keypoint is hidden if a surface in front of it is nearer by more than the tolerance [m].
+        """
+        if instance.label not in self.declared_points:
+            return instance.corners, CORNER_TOLERANCE * length(instance.size)
+        points = instance.world_from_instance.transform(self.declared_points[instance.label])
+        return points, POINT_TOLERANCE * length(instance.size)
+
+    def with_keypoints(self, keypoints: Keypoints) -> InstanceTable:
+        """Return the table with declared keypoints; raise UnknownName for an unknown class."""
+        for label, _ in keypoints:
+            if label not in self.classes:
+                raise UnknownName("class", label, self.classes)
+        points = {label: np.array([point for _, point in rows]) for label, rows in keypoints}
+        return replace(self, declared_points=points)
 
     @property
     def all_ids(self) -> frozenset[int]:

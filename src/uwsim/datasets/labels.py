@@ -8,9 +8,9 @@ with its pixels in the image and those of its silhouette (`silhouettes`), both i
 The truncation is the share of the rectangle around the projected 3-D box that is outside of the
 image; it is None if the box reaches behind the camera.
 
-Keypoints are the corners of the 3-D box, with COCO's flags: 0 outside of the image, 1 hidden, 2
-visible. A corner is hidden if the surface in its pixel is nearer by more than `CORNER_TOLERANCE`
-times the diagonal of the box: corners of a box are rarely on the surface.
+Keypoints are declared points, or the corners of the 3-D box, with COCO's flags: 0 outside of the
+image, 1 hidden, 2 visible. A point is hidden if the surface in its pixel is nearer by more than a
+tolerance, which is greater for corners: these are rarely on the surface.
 """
 
 from __future__ import annotations
@@ -30,8 +30,6 @@ from .instances import Instance, InstanceTable
 from .pixel_counts import number_image, pixel_box
 from .silhouettes import measure_silhouettes
 
-CORNER_TOLERANCE = 0.05
-"""The distance, over the diagonal of a box, by which a surface in front of a corner hides it."""
 N_DIGITS = 6
 """The number of decimals of lengths [m] and pixels in records."""
 
@@ -67,6 +65,7 @@ def label_image(
         depth=depth,
         instances=[
             _describe(
+                table,
                 instance,
                 image,
                 depth,
@@ -81,6 +80,7 @@ def label_image(
 
 
 def _describe(
+    table: InstanceTable,
     instance: Instance,
     image: RenderedImage,
     depth: npt.NDArray[np.float32],
@@ -93,7 +93,8 @@ def _describe(
     optical_from_box = optical_from_world @ instance.world_from_box
     corners = optical_from_world.transform(instance.corners)
     pixels = project_optical(image.intrinsics, corners)
-    tolerance = CORNER_TOLERANCE * length(instance.size)
+    world_points, tolerance = table.find_keypoints(instance)
+    points = optical_from_world.transform(world_points)
     n_visible, n_silhouette = int(visible_row[0]), int(silhouette_row[0])
     return {
         "number": instance.number,
@@ -112,7 +113,9 @@ def _describe(
             "quaternion_wxyz": round_values(optical_from_box.quaternion),
             "corners": round_values(corners),
         },
-        "keypoints": _flag_keypoints(pixels, corners, depth, tolerance),
+        "keypoints": _flag_keypoints(
+            project_optical(image.intrinsics, points), points, depth, tolerance
+        ),
     }
 
 
@@ -143,16 +146,16 @@ def _truncation(pixels: Array, intrinsics: Intrinsics) -> float | None:
 
 
 def _flag_keypoints(
-    pixels: Array, corners: Array, depth: npt.NDArray[np.float32], tolerance: float
+    pixels: Array, points: Array, depth: npt.NDArray[np.float32], tolerance: float
 ) -> list[list[float]]:
-    """Return u, v [px] and COCO's flag of each corner; 0, 0, 0 outside of the image."""
+    """Return u, v [px] and COCO's flag of each point; 0, 0, 0 outside of the image."""
     height, width = depth.shape
     keypoints = []
-    for (u, v), corner in zip(pixels.tolist(), corners.tolist(), strict=True):
+    for (u, v), point in zip(pixels.tolist(), points.tolist(), strict=True):
         if not (-0.5 <= u < width - 0.5 and -0.5 <= v < height - 0.5):  # also NaN
             keypoints.append([0.0, 0.0, 0])
             continue
         surface = float(depth[int(np.floor(v + 0.5)), int(np.floor(u + 0.5))])
-        flag = 1 if surface < corner[2] - tolerance else 2
+        flag = 1 if surface < point[2] - tolerance else 2
         keypoints.append([round_values(u), round_values(v), flag])
     return keypoints

@@ -34,6 +34,7 @@ from .contact_sheet import write_contact_sheet
 from .formats import write_formats
 from .image_files import FOLDERS, SONAR_FOLDERS
 from .instances import find_instances
+from .keypoints import KEYPOINTS_FILE, to_document
 from .request import DatasetRequest
 from .scene_draw import DatasetSources, find_scene_seed
 from .shards import FOLDER, draw_indices, draw_numbers, is_finished, read_records
@@ -45,7 +46,7 @@ from .workers import OnImage, render_all
 DESCRIPTION = "dataset.json"
 """The file that describes the data set; it is written first."""
 FILE_NAMES = re.compile(
-    r"(dataset\.json|labels\.jsonl|README\.md|contact-sheet\.png|statistics\.png|data\.yaml|(train|val|test)\.txt"
+    r"(dataset\.json|keypoints\.json|labels\.jsonl|README\.md|contact-sheet\.png|statistics\.png|data\.yaml|(train|val|test)\.txt"
     r"|(images|depth|instances|classes)|records|coco|kitti|labels)"
 )
 """The names of the files and folders of a data set."""
@@ -92,6 +93,7 @@ def make_dataset(request: DatasetRequest, progress: Progress | None = None) -> D
     )
     with Simulation(model, is_blind=True) as simulation:  # every name is checked before the start
         table = find_instances(simulation, request.classes)
+        table.with_keypoints(request.keypoints)
         table.find_targets(request.targets)
         make_camera(simulation, request)
         if request.sonar is not None:
@@ -110,6 +112,9 @@ def make_dataset(request: DatasetRequest, progress: Progress | None = None) -> D
         for folder in (*(FOLDERS if request.sonar is None else SONAR_FOLDERS), FOLDER):
             (request.out / folder).mkdir(exist_ok=True)
         write_text(request.out / DESCRIPTION, json.dumps(description, indent=1) + "\n")
+        if request.keypoints:
+            text = json.dumps(to_document(request.keypoints), indent=1)
+            write_text(request.out / KEYPOINTS_FILE, text + "\n")
         missing_draws = [n for n in draw_numbers(request) if not is_finished(request, n)]
         n_pending = sum(len(draw_indices(request, number)) for number in missing_draws)
         if missing_draws:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import BadSetting, ErrorCollector, did_you_mean, short_repr
+from .keypoints import Keypoints
 
 FORMATS = ("plain", "coco", "kitti", "yolo")
 """The formats of labels; ``plain`` is always written."""
@@ -102,6 +103,8 @@ class DatasetRequest:
     """The values of the scene to change, as ``--set`` names them."""
     classes: tuple[tuple[str, str], ...] = ()
     """The class of objects: a pattern of names such as ``rock*``, and the class."""
+    keypoints: Keypoints = ()
+    """The declared keypoints of classes; a class without any has the corners of its boxes."""
     views_per_scene: int = 25
     """The number of images of one scene draw."""
     split: tuple[float, float, float] = (0.8, 0.1, 0.1)

@@ -111,7 +111,9 @@ class SceneDraw:
         """Find the instances at their present poses."""
         simulation = self._simulation
         self._pose_version = simulation.world.engine.poses.version
-        self.table: InstanceTable = find_instances(simulation, self._request.classes)
+        self.table: InstanceTable = find_instances(
+            simulation, self._request.classes
+        ).with_keypoints(self._request.keypoints)
         """The instances of the scene."""
         sonar = self._sonar
         self._sampler = ViewpointSampler(

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from ...datasets import Range
+    from ...datasets.keypoints import Keypoints
 
 SourceArgument = Annotated[
     str,
@@ -156,6 +157,15 @@ class LabelOptions:
             help="Class of objects by their names, as rock*=rock; may be repeated [their names].",
         ),
     ] = None
+    keypoints: Annotated[
+        Path | None,
+        option(
+            INPUT,
+            "--keypoints",
+            metavar="FILE",
+            help="JSON file of named points of classes [corners of the boxes].",
+        ),
+    ] = None
     splits: Annotated[
         str,
         option(OUTPUT, "--split", metavar="A,B,C", help="Shares of train, val and test."),
@@ -193,6 +203,7 @@ def dataset(
     depend neither on that nor on --workers.
     """
     from ...datasets import DatasetRequest, Range, make_dataset
+    from ...datasets.keypoints import read_keypoints
     from ..views import read_size
 
     errors = ErrorCollector()
@@ -223,6 +234,9 @@ def dataset(
     for text in labels.label or ():
         with errors.collect():
             classes.append(split(text, "--class"))
+    keypoints: Keypoints = ()
+    with errors.collect():
+        keypoints = () if labels.keypoints is None else read_keypoints(labels.keypoints)
     settings = pairs_of(changes.all_settings, errors)
     request = DatasetRequest(
         scene=source,
@@ -246,6 +260,7 @@ def dataset(
         variations=tuple(paths),
         settings=tuple(settings),
         classes=tuple(classes),
+        keypoints=keypoints,
         views_per_scene=variations.views_per_scene,
         split=shares,
         encoding=labels.encoding,

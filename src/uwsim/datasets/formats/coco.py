@@ -1,14 +1,16 @@
 """COCO: one file of instances for each split, with masks as run lengths, boxes and keypoints.
 
-Keypoints are the corners of the 3-D box. ``bbox`` is x, y, width, height of the visible pixels, and
-``area`` is their number. Fields of uwsim beside COCO's: ``visibility``, ``amodal_bbox``.
+Keypoints are declared points, or the corners of the 3-D box. ``bbox`` is x, y, width, height of the
+visible pixels, and ``area`` is their number. Fields of uwsim beside COCO's: ``visibility``,
+``amodal_bbox``.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -35,16 +37,29 @@ def write_coco(
     folder.mkdir(exist_ok=True)
     for split in SPLITS:
         document = make_document(
-            request.out, [record for record in records if record["split"] == split], classes
+            request.out,
+            [record for record in records if record["split"] == split],
+            classes,
+            {label: [name for name, _ in points] for label, points in request.keypoints},
         )
         text = json.dumps(document, separators=(",", ":")) + "\n"
         write_text(folder / f"instances_{split}.json", text)
 
 
 def make_document(
-    directory: Path, records: Sequence[dict[str, Any]], classes: Sequence[str]
+    directory: Path,
+    records: Sequence[dict[str, Any]],
+    classes: Sequence[str],
+    keypoint_names: Mapping[str, Sequence[str]] = MappingProxyType({}),
 ) -> dict[str, Any]:
-    """Return COCO's document of some images; ``file_name`` is relative to the data set."""
+    """Return COCO's document of some images; ``file_name`` is relative to the data set.
+
+    Args:
+        directory: the data set.
+        records: the records of the images.
+        classes: the classes.
+        keypoint_names: the names of the declared keypoints of classes; others have corners.
+    """
     annotations: list[dict[str, Any]] = []
     for record in records:
         annotations += _make_annotations(directory, record, classes, len(annotations) + 1)
@@ -61,7 +76,12 @@ def make_document(
             for record in records
         ],
         "categories": [
-            {"id": number, "name": name, "keypoints": CORNERS, "skeleton": EDGES}
+            {
+                "id": number,
+                "name": name,
+                "keypoints": list(keypoint_names.get(name, CORNERS)),
+                "skeleton": [] if name in keypoint_names else EDGES,
+            }
             for number, name in enumerate(classes, start=1)
         ],
         "annotations": annotations,

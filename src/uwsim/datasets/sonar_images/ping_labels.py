@@ -26,7 +26,7 @@ from ...base.numerics.linear import length
 from ...sensors.sonar.echoes import MICROPASCAL
 from ...simulation import Simulation
 from ..instances import Instance, InstanceTable
-from ..labels import CORNER_TOLERANCE, round_values
+from ..labels import round_values
 from ..pixel_counts import number_image, pixel_box
 from .dataset_sonar import DatasetSonar
 
@@ -130,11 +130,10 @@ def _flag_keypoints(
     world_from_sonar: Pose,
     instance: Instance,
 ) -> list[list[float]]:
-    """Return column, row and COCO's flag of each corner; 0, 0, 0 outside of the fan."""
-    corners = instance.corners
-    pixels = sonar.project(world_from_sonar.inverse().transform(corners))
-    gaps, _ = _cast_to(simulation, table, world_from_sonar, corners)
-    tolerance = CORNER_TOLERANCE * length(instance.size)
+    """Return column, row and COCO's flag of each keypoint; 0, 0, 0 outside of the fan."""
+    points, tolerance = table.find_keypoints(instance)
+    pixels = sonar.project(world_from_sonar.inverse().transform(points))
+    gaps, _ = _cast_to(simulation, table, world_from_sonar, points)
     return [
         [0.0, 0.0, 0]
         if np.isnan(u)
