@@ -14,6 +14,7 @@ QUAD = rectangle(160.0, 120.0, 93.0, 28.0)
 BLIND = (
     "autopilot-path",
     "autopilot-station",
+    "docking",
     "pilot",
     "position-lqr",
     "position-p",

@@ -74,7 +74,7 @@ def test_a_task_gives_finite_numbers(task: str, tmp_path: Path) -> None:
         observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
         assert np.isfinite(reward)
     assert (terminated, truncated) == (False, True)
-    assert set(info["measures"]) == {"offset", "energy"}
+    assert {"offset", "energy"} <= set(info["measures"])
     env.close()
 
 

@@ -14,6 +14,7 @@ from ..errors import BadSetting, did_you_mean, type_and_text
 from .autopilot_missions import AutopilotPath, AutopilotStation
 from .control import PI, Feedforward, P
 from .direct import Esm, InverseCompositional, SsdEsm
+from .docking import Docking
 from .ecc import Ecc
 from .frozen import FrozenTracker
 from .grasp import Grasp, GraspBlindClose, GraspNothing, GraspP, GraspTruth
@@ -30,6 +31,7 @@ __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
 ALGORITHMS: dict[str, type[Algorithm]] = {
     "autopilot-path": AutopilotPath,
     "autopilot-station": AutopilotStation,
+    "docking": Docking,
     "ecc": Ecc,
     "esm": Esm,
     "feedforward": Feedforward,

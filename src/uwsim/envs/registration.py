@@ -12,6 +12,7 @@ TASKS = {
     "uwsim/Circle-v0": "circle",
     "uwsim/Helix-v0": "helix",
     "uwsim/Lemniscate-v0": "lemniscate",
+    "uwsim/Docking-v0": "docking",
 }
 """The benchmark of each task."""
 

@@ -1,0 +1,59 @@
+"""The task of docking: its environment, and that the bundled guidance enters the dock."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+import uwsim
+from uwsim.envs import BenchmarkEnv, make_env
+
+
+def rollout(env: BenchmarkEnv, n: int) -> bytes:
+    """Take random steps, with a new episode after each end; return all numbers."""
+    observation, _ = env.reset(seed=2, options={"level": {"current": 0.1}})
+    env.action_space.seed(2)
+    parts = [observation.tobytes()]
+    for _ in range(n):
+        observation, reward, terminated, truncated, _ = env.step(env.action_space.sample())
+        assert np.isfinite(observation).all()
+        assert np.isfinite(reward)
+        parts += [observation.tobytes(), np.float64(reward).tobytes()]
+        if terminated or truncated:
+            observation, _ = env.reset(seed=3)
+    return b"".join(parts)
+
+
+def test_gymnasium_finds_nothing_wrong_with_docking() -> None:
+    env = make_env("docking")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env, skip_render_check=True)
+    env.close()
+
+
+def test_random_steps_give_the_same_finite_numbers_twice() -> None:
+    env, twin = make_env("docking"), make_env("docking")
+    assert rollout(env, 100) == rollout(twin, 100)
+    env.close()
+    twin.close()
+
+
+@pytest.mark.slow
+def test_two_thousand_random_steps_give_finite_numbers() -> None:
+    env = make_env("docking")
+    rollout(env, 2000)
+    env.close()
+
+
+def test_the_guidance_enters_the_dock_in_still_water_without_an_impact() -> None:
+    result = uwsim.bench("docking", seeds=(1,), levels={"current": [0.0]})
+    names = [column.name for column in result.columns]
+    row = result.rows[0]
+    assert result.values("status") == ("ok",)
+    assert row[names.index("offset")] < 0.3
+    assert row[names.index("impact")] > 0.9
+    assert row[names.index("time")] < 30.0
