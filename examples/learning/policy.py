@@ -21,11 +21,11 @@ class Policy:
 
     def __call__(self, observation):
         """Return the action for an observation."""
-        hidden = np.clip((observation - self.mean) / self.deviation, -10.0, 10.0)
+        activation = np.clip((observation - self.mean) / self.deviation, -10.0, 10.0)
         for weight, bias in self.layers[:-1]:
-            hidden = np.tanh(hidden @ weight + bias)
+            activation = np.tanh(activation @ weight + bias)
         weight, bias = self.layers[-1]
-        return np.clip(hidden @ weight + bias, -1.0, 1.0)
+        return np.clip(activation @ weight + bias, -1.0, 1.0)
 
 
 def save_policy(path, layers, mean, deviation):

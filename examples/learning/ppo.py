@@ -134,12 +134,12 @@ def train(task, *, steps, rows, length, seed, rate, out, options):
     episode_return, returns, begin = np.zeros(rows), [], time.monotonic()
 
     for iteration in range(max(1, steps // (rows * length))):
-        raw = np.zeros((length + 1, rows, n))
+        observations = np.zeros((length + 1, rows, n))
         actions = np.zeros((length, rows, n_actions))
         rewards, is_valid = np.zeros((length, rows)), np.zeros((length, rows), bool)
         terminated, is_over = np.zeros_like(is_valid), np.zeros_like(is_valid)
         for t in range(length):
-            raw[t], is_valid[t] = observation, ~was_over
+            observations[t], is_valid[t] = observation, ~was_over
             mean = actor.forward(standardise(observation))[0]
             noise = np.exp(actor.parameters[-1]) * rng.normal(size=mean.shape)
             actions[t] = mean + noise
@@ -149,24 +149,26 @@ def train(task, *, steps, rows, length, seed, rate, out, options):
             episode_return += rewards[t]
             returns += episode_return[was_over].tolist()
             episode_return[was_over] = 0.0
-        raw[length] = observation
+        observations[length] = observation
 
-        x = standardise(raw)
+        x = standardise(observations)
         values = critic.forward(x.reshape(-1, n))[0].reshape(length + 1, rows)
         advantages = advantages_of(rewards, values[:-1], values[1:], terminated, is_over)
-        selected = is_valid.ravel()
-        x, a = x[:-1].reshape(-1, n)[selected], actions.reshape(-1, n_actions)[selected]
-        targets = (advantages + values[:-1]).ravel()[selected]
-        advantages = advantages.ravel()[selected]
-        old = log_density(a, actor.forward(x)[0], actor.parameters[-1])
+        selection = is_valid.ravel()
+        x, a = x[:-1].reshape(-1, n)[selection], actions.reshape(-1, n_actions)[selection]
+        targets = (advantages + values[:-1]).ravel()[selection]
+        advantages = advantages.ravel()[selection]
+        old_density = log_density(a, actor.forward(x)[0], actor.parameters[-1])
         present_rate = rate * (1.0 - iteration * rows * length / steps)
         for _ in range(EPOCHS):
             for batch in np.array_split(rng.permutation(len(x)), max(1, len(x) // MINIBATCH)):
-                update_actor(actor, x[batch], a[batch], advantages[batch], old[batch], present_rate)
+                update_actor(
+                    actor, x[batch], a[batch], advantages[batch], old_density[batch], present_rate
+                )
                 value, inputs = critic.forward(x[batch])
                 error = (value[:, 0] - targets[batch])[:, None] / len(batch)
                 critic.descend(critic.backward(inputs, error), present_rate)
-        standardise.update(raw[:-1].reshape(-1, n)[selected])
+        standardise.update(observations[:-1].reshape(-1, n)[selection])
         if iteration % 10 == 0 and returns:
             n_steps = (iteration + 1) * rows * length
             print(
@@ -179,12 +181,12 @@ def train(task, *, steps, rows, length, seed, rate, out, options):
     envs.close()
 
 
-def update_actor(actor, x, actions, advantages, old, rate):
+def update_actor(actor, x, actions, advantages, old_density, rate):
     """Climb the clipped objective, min(r A, clip(r) A), by one step."""
     advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
     mean, inputs = actor.forward(x)
     deviation = np.exp(actor.parameters[-1])
-    ratio = np.exp(log_density(actions, mean, actor.parameters[-1]) - old)
+    ratio = np.exp(log_density(actions, mean, actor.parameters[-1]) - old_density)
     is_clipped = np.where(advantages > 0.0, ratio > 1.0 + CLIP, ratio < 1.0 - CLIP)
     weight = (np.where(is_clipped, 0.0, ratio * advantages) / len(x))[:, None]
     z = (actions - mean) / deviation

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import warnings
 
+import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
 import uwsim
 from uwsim.envs import BenchmarkEnv, make_env
+from uwsim.errors import BadSetting
 
 
 def rollout(env: BenchmarkEnv, n: int) -> bytes:
@@ -57,3 +59,8 @@ def test_the_guidance_enters_the_dock_in_still_water_without_an_impact() -> None
     assert row[names.index("offset")] < 0.3
     assert row[names.index("impact")] > 0.9
     assert row[names.index("time")] < 30.0
+
+
+def test_rows_refuse_a_scene_with_a_solid_dock() -> None:
+    with pytest.raises(BadSetting, match=r"dock_floor.*trigger ends its levels"):
+        gymnasium.make_vec("uwsim/Docking-v0", num_envs=2, stepper="rows")

@@ -42,7 +42,7 @@ WAITING_DISTANCE = 1.7
 
 
 class Docking:
-    """Guidance into a dock: turns to its axis, comes onto it, and moves along it."""
+    """A guidance into a dock: turns to its axis, comes onto it, and moves along it."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         "axis": 0.0,
@@ -99,15 +99,15 @@ class Docking:
         self._time = self._node.now
         kp, limit = self._number("kp"), self._number("limit")
         axis = np.array([math.cos(turn), math.sin(turn), 0.0])
-        along = float(np.sum(error * axis))
-        across = error - along * axis
-        if length(across) < 2.0 * self._number("width"):
-            self._integral = self._integral + across * dt
-        width = self._number("width") + FUNNEL_SLOPE * max(0.0, along - FUNNEL_START)
-        share = max(0.0, 1.0 - length(across) / width)
+        distance = float(np.sum(error * axis))
+        cross_track = error - distance * axis
+        if length(cross_track) < 2.0 * self._number("width"):
+            self._integral = self._integral + cross_track * dt
+        width = self._number("width") + FUNNEL_SLOPE * max(0.0, distance - FUNNEL_START)
+        share = max(0.0, 1.0 - length(cross_track) / width)
         top_speed = self._number("speed")
-        speed = kp * (share * along + (1.0 - share) * (along - WAITING_DISTANCE))
+        speed = kp * (share * distance + (1.0 - share) * (distance - WAITING_DISTANCE))
         speed = min(top_speed, max(-top_speed, speed))
-        command = kp * across + self._number("ki") * self._integral + speed * axis
+        command = kp * cross_track + self._number("ki") * self._integral + speed * axis
         limited_command: Array = np.clip(command, -limit, limit)
         return limited_command

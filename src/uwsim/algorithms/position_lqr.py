@@ -139,8 +139,8 @@ def compute_gains(
     for _ in range(N_ITERATIONS):
         pb = _product(p, b[:, None])[:, 0]
         gain = _product(pb[None, :], a)[0] / (input_weight + float(np.sum(b * pb)))
-        closed = a - b[:, None] * gain
-        p = cost + _product(_product(a.T, p), closed)
+        closed_loop = a - b[:, None] * gain
+        p = cost + _product(_product(a.T, p), closed_loop)
     integral, error, velocity = (-gain).tolist()
     return integral, error, -velocity
 

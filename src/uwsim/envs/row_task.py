@@ -16,6 +16,7 @@ from ..base.rng import stream
 from ..benchmark.environment import EnvironmentSpec
 from ..benchmark.environment.reward import REWARD_NAMES
 from ..benchmark.reference_trajectory import TrajectorySpec
+from ..benchmark.triggers.never import NeverSpec
 from ..benchmark.updaters import (
     CurrentForceUpdaterSpec,
     Level,
@@ -140,6 +141,11 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
         reasons.append("its updater is other than <currentForceUpdater> or <none>")
     if plan.scene.ocean_state.currents:
         reasons.append("its scene has currents")
+    solids = [item.name for item in model.scene.objects if item.has_contacts(in_water=True)]
+    if solids:
+        reasons.append(f"its scene has solid objects ({', '.join(solids[:3])})")
+    if not isinstance(plan.benchmark.stop_on, NeverSpec):
+        reasons.append("a trigger ends its levels")
     return reasons
 
 
