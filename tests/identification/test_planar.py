@@ -11,7 +11,7 @@ from tests.identification.vehicles import bluerov2
 from uwsim.errors import BadSetting
 from uwsim.identification import IdentifySettings, WindowSettings, identify
 from uwsim.identification.parameters import choose_parameters
-from uwsim.identification.planar import hold_vertical, level_motion
+from uwsim.identification.planar import has_vertical_motion, hold_vertical, level_motion
 from uwsim.identification.simulated_log import Excitation, simulate_free_log
 from uwsim.logs import VehicleLog
 from uwsim.physics.hydrodynamics import columns as c
@@ -100,6 +100,20 @@ def test_a_log_without_depth_is_fitted_in_the_plane() -> None:
     np.testing.assert_allclose(result.values, truth, rtol=0.05)
     assert "Planar mode" in result.windows.remarks[0]
     assert result.check.warnings == ()
+
+
+def test_constants_in_place_of_depth_roll_and_pitch_are_no_motion() -> None:
+    log = boat_log()
+    assert log.motion is not None
+    assert log.motion.twists is not None
+    positions, quaternions = log.motion.positions.copy(), log.motion.quaternions.copy()
+    positions[:, 2], quaternions[:, 1:3] = 0.4, 0.0
+    twists = log.motion.twists.copy()
+    twists[:, 2:5] = 0.0
+    motion = replace(log.motion, positions=positions, quaternions=quaternions, twists=twists)
+    assert not has_vertical_motion([replace(log, motion=motion)])
+    diving_motion = replace(motion, positions=positions + np.arange(len(positions))[:, None])
+    assert has_vertical_motion([replace(log, motion=diving_motion)])
 
 
 def test_an_axis_that_is_held_cannot_be_fitted() -> None:

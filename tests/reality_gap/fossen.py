@@ -49,6 +49,8 @@ class Rov:
         default_factory=lambda: np.array([141, 217, 190, 1.19, 0.47, 1.5])
     )
     strength: np.ndarray = field(default_factory=lambda: np.ones(8))
+    is_planar: bool = False
+    """True if heave, roll and pitch are held."""
 
     def derivative(self, state: np.ndarray, commands: np.ndarray) -> np.ndarray:
         """Return the derivative of position, quaternion wxyz, twist and rotors, (21,)."""
@@ -70,6 +72,8 @@ class Rov:
         force = thrusts @ DIRECTIONS
         torque = (thrusts[:, None] * np.cross(PLACES, DIRECTIONS)).sum(axis=0)
         acceleration = (np.concatenate([force, torque]) + restoring - damping - coriolis) / inertia
+        if self.is_planar:
+            acceleration[2:5] = 0.0
         p, q, r = w
         rates = 0.5 * np.array([[0, -p, -q, -r], [p, 0, r, -q], [q, -r, 0, p], [r, q, -p, 0]])
         return np.concatenate(

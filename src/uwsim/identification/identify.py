@@ -225,7 +225,11 @@ def _choose_mode(
         is_planar = not has_vertical_motion(logs)
     if not is_planar:
         return model, ()
-    reason = "" if settings.is_planar else "The logs have neither depth nor heave. "
+    reason = (
+        ""
+        if settings.is_planar
+        else "The logs have neither depth nor heave, or constants in their place. "
+    )
     remark = f"{reason}Planar mode: heave, roll and pitch are held."
     return hold_vertical(model), (remark,)
 

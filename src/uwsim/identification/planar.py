@@ -39,10 +39,14 @@ HELD_FACTOR = 1e6
 
 
 def has_vertical_motion(logs: Sequence[VehicleLog]) -> bool:
-    """Return True if a log has a depth or a velocity of heave; without any motion, too."""
+    """Return True if a log has a depth or a velocity of heave; without any motion, too.
+
+    A depth, a roll and a pitch that are constants of the mapping file are none.
+    """
     motions = [log.motion for log in logs if log.motion is not None]
-    columns = [motion.positions[:, 2] for motion in motions]
-    columns += [motion.twists[:, 2] for motion in motions if motion.twists is not None]
+    free_motions = [motion for motion in motions if not motion.is_planar]
+    columns = [motion.positions[:, 2] for motion in free_motions]
+    columns += [motion.twists[:, 2] for motion in free_motions if motion.twists is not None]
     return not motions or any(bool(np.isfinite(column).any()) for column in columns)
 
 

@@ -10,6 +10,8 @@ import numpy as np
 
 from ..base.geometry import Pose, rotation_from_quaternion
 from ..base.numerics.linear import product
+from ..devices.ardupilot import ArduPilotSpec
+from ..devices.ardupilot.channels import ChannelSpec
 from ..errors import BadSetting, UnknownName
 from ..model.body_names import vehicle_body, vehicle_fin, vehicle_thruster
 from ..physics.compile_scene import compile_scene
@@ -63,17 +65,25 @@ class VehicleModel:
     """The names of thrusters and fins, in the order of `numbers`."""
     world_from_localized: Pose
     """The pose of L in W."""
+    channels: tuple[ChannelSpec, ...] = ()
+    """The channels of the vehicle's ``<u:ardupilot>``, which name the motors of its logs."""
     is_planar: bool = False
     """The mode in which heave, roll and pitch are held (`planar`)."""
 
     @property
     def thrusters(self) -> tuple[str, ...]:
         """The names of the thrusters."""
+        return self._actuators(c.PROPELLER)
+
+    @property
+    def fins(self) -> tuple[str, ...]:
+        """The names of the fins."""
+        return self._actuators(c.FIN)
+
+    def _actuators(self, role: float) -> tuple[str, ...]:
         rows = self.numbers.actuators
         return tuple(
-            name
-            for name, row in zip(self.actuators, rows, strict=True)
-            if row[c.ROLE] == c.PROPELLER
+            name for name, row in zip(self.actuators, rows, strict=True) if row[c.ROLE] == role
         )
 
 
@@ -166,4 +176,9 @@ def open_vehicle(scene: SceneSpec, name: str | None = None) -> VehicleModel:
             for i in actuators_in_water(engine_model, root)
         ),
         world_from_localized=scene.world_from_localized,
+        channels=tuple(
+            channel
+            for device in model.scene.vehicles[index].parts_of(ArduPilotSpec)
+            for channel in device.channels
+        ),
     )

@@ -11,7 +11,7 @@ velocity over ground in base axes [m/s] and the angular velocity in base axes [r
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,7 @@ import numpy.typing as npt
 from ..base.geometry import Array, quaternion_from_rotation
 from ..base.numerics.linear import rotate_rows
 from ..errors import BadSetting, choices
-from ..logs import CommandSeries, MotionSeries, VehicleLog
+from ..logs import CommandSeries, MotionSeries, VehicleLog, name_motors
 from ..logs.frames import multiply_quaternions, rotate_vectors
 from .planar import level_motion
 from .vehicle_model import VehicleModel
@@ -122,7 +122,7 @@ def cut_windows(
     errors: list[str] = []
     remarks: list[str] = []
     parts: list[_Cut] = []
-    for log in logs:
+    for log in (_name_actuators(log, model) for log in logs):
         problems = _find_errors(log, model, settings)
         errors += problems
         if not problems:
@@ -145,6 +145,14 @@ class _Cut:
     starts: npt.NDArray[np.int64]
     samples: list[tuple[Array, Array]]
     """The times from the start of the window [s] and the motion of each window's samples."""
+
+
+def _name_actuators(log: VehicleLog, model: VehicleModel) -> VehicleLog:
+    """Return a log whose commands have the names of the vehicle's thrusters and fins."""
+    log = name_motors(log, model.channels, model.name)
+    names = {"thrusters": model.thrusters, "fins": model.fins}
+    series = (part.name_in_order(names.get(part.kind, part.names)) for part in log.commands)
+    return replace(log, commands=tuple(series))
 
 
 def _find_errors(log: VehicleLog, model: VehicleModel, settings: WindowSettings) -> list[str]:

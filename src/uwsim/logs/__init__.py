@@ -8,6 +8,7 @@
 
 from __future__ import annotations
 
+from .autopilot_series import name_motors
 from .csv_log import LogError, write_csv_log
 from .mapping import LogMapping
 from .mapping_reader import MappingError, read_mapping
@@ -23,6 +24,7 @@ __all__ = [
     "MotionSeries",
     "SensorSeries",
     "VehicleLog",
+    "name_motors",
     "read_log",
     "read_mapping",
     "write_csv_log",

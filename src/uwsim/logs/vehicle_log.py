@@ -7,7 +7,7 @@ Times are seconds from the beginning of the log. Poses are in the frame L of sce
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Literal
 
@@ -77,6 +77,18 @@ class CommandSeries:
         if self.sample_interval is not None:
             return self.sample_interval
         return float(np.median(np.diff(self.times))) if len(self.times) > 1 else 0.0
+
+    def name_in_order(self, names: tuple[str, ...]) -> CommandSeries:
+        """Return the commands with the names of a vehicle, if the log has none of them.
+
+        Names of the log that are numbers, or of which the vehicle has none, count in their order.
+
+        Args:
+            names: the vehicle's thrusters or fins, in their order.
+        """
+        if len(self.names) != len(names) or set(self.names) & set(names):
+            return self
+        return replace(self, names=names)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

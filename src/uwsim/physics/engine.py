@@ -257,14 +257,23 @@ class Engine:
         twist[:3] = rotate_back(self.poses.vehicle(index).rotation, twist[:3])
         return twist
 
-    def place_vehicle(self, index: int, world_from_base: Pose, twist: Array | None = None) -> None:
-        """Set the pose of a vehicle, with its actuators at rest.
+    def place_vehicle(
+        self,
+        index: int,
+        world_from_base: Pose,
+        twist: Array | None = None,
+        *,
+        stops_actuators: bool = True,
+    ) -> None:
+        """Set the pose of a vehicle.
 
         Args:
             index: the index of the vehicle.
             world_from_base: the pose of its base in W.
             twist: the twist of the base over ground, in base axes, (6,) [m/s, rad/s], of a vehicle
                 with dynamics; None: at rest.
+            stops_actuators: stop thrusters and fins, and hold the new depth and heading; False:
+                the vehicle keeps its commands.
         """
         start, dof = self._base_addresses[index], self._base_dofs[index]
         self._data.qpos[start : start + 3] = world_from_base.position
@@ -274,7 +283,8 @@ class Engine:
             if twist is not None:
                 self._data.qvel[dof : dof + 3] = rotate(world_from_base.rotation, twist[:3])
                 self._data.qvel[dof + 3 : dof + 6] = twist[3:]
-            self.actuation[index].hold(world_from_base)
+            if stops_actuators:
+                self.actuation[index].hold(world_from_base)
             self.contacts.invalidate(are_current=False)
         self.poses.mark_stale()
 

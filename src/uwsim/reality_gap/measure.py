@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 
 from ..base.geometry import Array
+from ..devices.ardupilot import ArduPilotSpec
 from ..errors import BadSetting
-from ..logs import VehicleLog
+from ..logs import VehicleLog, name_motors
 from ..model.body_names import vehicle_body
 from ..model.scene_model import SceneModel
 from ..physics.compile_scene import compile_scene
 from ..scene.spec import SceneSpec
 from ..simulation import Simulation
 from .attribution import Attribution, attribute_residual
-from .autopilot_motors import name_motors
 from .coefficients import (
     LAG_KEY,
     Coefficient,
@@ -96,7 +96,12 @@ class _Measurement:
             self._remarks.append(
                 "the scene has waves or currents; each window begins at their time 0."
             )
-        self._log = name_motors(log, self._model.scene.vehicles[self._index])
+        channels = [
+            channel
+            for device in self._model.scene.vehicles[self._index].parts_of(ArduPilotSpec)
+            for channel in device.channels
+        ]
+        self._log = name_motors(log, channels, self._name)
         self._command_kinds: tuple[str, ...] = ()
 
     def run(self) -> Gap:

@@ -146,15 +146,11 @@ def _autopilot(vehicle: SceneVehicle) -> Autopilot:
 
 
 def _sort_columns(series: CommandSeries, names: tuple[str, ...]) -> Array:
-    """Return the commands in the order of the vehicle's names.
-
-    Names of the log that are numbers, or of which the vehicle has none, count in their order.
-    """
+    """Return the commands in the order of the vehicle's names."""
+    series = series.name_in_order(names)
     if set(series.names) == set(names):
         return series.values[:, [series.names.index(name) for name in names]]
     n_log, n_vehicle = len(series.names), len(names)
-    if n_log == n_vehicle and not set(series.names) & set(names):
-        return series.values
     if n_log != n_vehicle:
         raise BadSetting(
             f"The log has commands for {n_log} {series.kind}"

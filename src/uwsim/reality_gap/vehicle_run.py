@@ -126,7 +126,7 @@ class VehicleRun:
             pose = Pose.from_quaternion(np.array([state[0], state[1], depth]), heading)
             twist = state[7:] * np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
             self.simulation.world.engine.place_vehicle(
-                self.vehicle.index, self._world_from_localized @ pose, twist
+                self.vehicle.index, self._world_from_localized @ pose, twist, stops_actuators=False
             )
 
     def _read_state(self) -> Array:
