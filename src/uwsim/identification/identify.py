@@ -30,7 +30,7 @@ from .residuals import N_CHANNELS, Fit, Residuals
 from .uncertainty import Uncertainty, compute_uncertainty
 from .validation import HorizonError, compare_horizons, simulate_errors, split_folds
 from .vehicle_model import VehicleModel
-from .windows import Windows, WindowSettings, cut_windows
+from .windows import Windows, WindowSettings, cut_windows, name_actuators
 
 COARSE_STEP = 0.02
 """The step of the simulation far from the minimum [s]; that of the settings is used near it."""
@@ -93,6 +93,8 @@ class Identification:
     """The sum of squared residuals per measurement."""
     n_same_minimum: int
     """The number of starts that reach the same minimum."""
+    n_unfinished: int
+    """The number of further starts that were above it after `START_ITERATIONS`."""
     excitation: tuple[AxisExcitation, ...]
     """The excitation of each axis."""
     advice: tuple[str, ...]
@@ -149,6 +151,7 @@ def identify(
         BadSetting: a name of a coefficient, a log or a setting is invalid; with every error.
     """
     _check_logs(logs)
+    logs = [name_actuators(log, model) for log in logs]
     model, remarks = _choose_mode(logs, model, settings)
     parameters = choose_parameters(settings.free_names, model)
     windows = cut_windows(logs, model, settings.windows)
@@ -164,6 +167,10 @@ def identify(
     starts, noise = _search(start_residuals, settings, counter)
     best_start = min(starts, key=lambda solution: solution.cost)
     n_same = sum(solution.cost <= (1.0 + SAME_COST) * best_start.cost for solution in starts)
+    n_unfinished = sum(
+        not solution.is_converged and solution.cost > (1.0 + SAME_COST) * best_start.cost
+        for solution in starts
+    )
     solution, noise = _refine(fine_residuals, best_start.fit.values, noise, settings)
     counter.count()
     clean_noise = measured_noise(windows, settings.noise)
@@ -193,6 +200,7 @@ def identify(
         noise=noise,
         chi_squared=float((rows * rows).sum() / max(np.count_nonzero(rows), 1)),
         n_same_minimum=n_same,
+        n_unfinished=n_unfinished,
         excitation=excitation,
         advice=give_advice(excitation, uncertainty.estimates, uncertainty.weak_directions),
         check=check,

@@ -54,6 +54,8 @@ class Solution:
     """The sum of squares."""
     n_iterations: int
     """The number of iterations."""
+    is_converged: bool
+    """True if the fit ended by itself, not by the greatest number of iterations."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -92,6 +94,7 @@ def minimise(
     rows = residuals.compute(fit, weights)
     cost = compute_cost(residuals, fit, rows, loss)
     offset_slopes, age, n_done = np.empty(0), OFFSET_ITERATIONS, 0
+    is_converged = False
     for _ in range(max_iterations):
         if age >= OFFSET_ITERATIONS:
             offset_slopes, age = residuals.differentiate_offsets(fit, weights), 0
@@ -114,9 +117,10 @@ def minimise(
         age += 1
         if box < MIN_BOX or last_cost - cost <= TOLERANCE * cost:
             if age == 1:
+                is_converged = True
                 break
             box, age = max(box, FINAL_BOX), OFFSET_ITERATIONS
-    return Solution(fit=fit, cost=cost, n_iterations=n_done)
+    return Solution(fit=fit, cost=cost, n_iterations=n_done, is_converged=is_converged)
 
 
 def linearise(

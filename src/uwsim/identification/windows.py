@@ -122,7 +122,7 @@ def cut_windows(
     errors: list[str] = []
     remarks: list[str] = []
     parts: list[_Cut] = []
-    for log in (_name_actuators(log, model) for log in logs):
+    for log in logs:
         problems = _find_errors(log, model, settings)
         errors += problems
         if not problems:
@@ -147,8 +147,12 @@ class _Cut:
     """The times from the start of the window [s] and the motion of each window's samples."""
 
 
-def _name_actuators(log: VehicleLog, model: VehicleModel) -> VehicleLog:
-    """Return a log whose commands have the names of the vehicle's thrusters and fins."""
+def name_actuators(log: VehicleLog, model: VehicleModel) -> VehicleLog:
+    """Return a log whose commands have the names of the vehicle's thrusters and fins.
+
+    Raises:
+        BadSetting: a motor of an autopilot has no channel with a thruster.
+    """
     log = name_motors(log, model.channels, model.name)
     names = {"thrusters": model.thrusters, "fins": model.fins}
     series = (part.name_in_order(names.get(part.kind, part.names)) for part in log.commands)

@@ -30,6 +30,8 @@ MIN_UPRIGHT = 0.9
 """The least cosine of the angle of the base's z axis to the vertical at the start [1]."""
 MAX_HEAVE_SHARE = 0.25
 """The greatest share of the vertical thrust that may only hold the depth [1]."""
+MIN_VERTICAL_SHARE = 0.05
+"""The vertical component of a thruster's direction below which it is a horizontal thruster [1]."""
 MAX_RATE_ERROR = 0.005
 """The greatest difference of the rate of exchanges from the requested rate, as a fraction [1]."""
 MAX_START_DEPTH = 0.5
@@ -229,6 +231,8 @@ def _vertical_thrust(thruster: ThrusterSpec, up: Array) -> float:
     """Return the thrust along the vertical in the weaker direction [N]."""
     thrusts, _ = thrust_curve(thruster)
     share = abs(dot(wrench(thruster, np.zeros(3))[:3], up))
+    if share < MIN_VERTICAL_SHARE:
+        return 0.0
     return share * float(min(-thrusts[0], thrusts[-1]))
 
 

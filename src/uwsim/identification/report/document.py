@@ -64,6 +64,7 @@ def json_text(result: Identification) -> str:
         },
         "chi_squared_per_measurement": round_number(result.chi_squared),
         "starts_at_this_minimum": result.n_same_minimum,
+        "unfinished_starts": result.n_unfinished,
         "windows": len(result.windows),
         "held_out_errors": [
             {

@@ -102,7 +102,11 @@ def _make_cards(result: Identification) -> list[dict[str, str]]:
         {
             "label": "starts",
             "value": f"{result.n_same_minimum} of {result.settings.n_starts}",
-            "note": "reach this minimum",
+            "note": (
+                f"reach this minimum; {result.n_unfinished} were above it when they were stopped"
+                if result.n_unfinished
+                else "reach this minimum"
+            ),
         },
     ]
     last_horizon = max((error.horizon for error in result.horizons), default=0.0)

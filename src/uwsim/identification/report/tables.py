@@ -68,10 +68,11 @@ def list_warnings(result: Identification) -> list[str]:
         for estimate in estimates
         if estimate.is_at_bound and estimate.value != 0.0 and estimate.doubt != "bound"
     ]
-    if result.n_same_minimum * 2 < result.settings.n_starts:
+    n_ended = result.settings.n_starts - result.n_unfinished
+    if result.n_same_minimum * 2 < n_ended:
         warnings.append(
-            f"Only {result.n_same_minimum} of {result.settings.n_starts} starts reach the same "
-            "minimum: there may be a better one."
+            f"Only {result.n_same_minimum} of {n_ended} starts reach the same minimum: there may "
+            "be a better one."
         )
     return warnings
 
