@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,7 +12,6 @@ import numpy as np
 from ..base.geometry import Pose, rotation_from_quaternion
 from ..base.numerics.linear import product
 from ..devices.ardupilot import ArduPilotSpec
-from ..devices.ardupilot.channels import ChannelSpec
 from ..errors import BadSetting, UnknownName
 from ..model.body_names import vehicle_body, vehicle_fin, vehicle_thruster
 from ..physics.compile_scene import compile_scene
@@ -65,8 +65,8 @@ class VehicleModel:
     """The names of thrusters and fins, in the order of `numbers`."""
     world_from_localized: Pose
     """The pose of L in W."""
-    channels: tuple[ChannelSpec, ...] = ()
-    """The channels of the vehicle's ``<u:ardupilot>``, which name the motors of its logs."""
+    motors: Mapping[int, tuple[str, float]]
+    """The thruster and the sign of each motor of an ArduPilot, of the vehicle's channels."""
     is_planar: bool = False
     """The mode in which heave, roll and pitch are held (`planar`)."""
 
@@ -176,9 +176,9 @@ def open_vehicle(scene: SceneSpec, name: str | None = None) -> VehicleModel:
             for i in actuators_in_water(engine_model, root)
         ),
         world_from_localized=scene.world_from_localized,
-        channels=tuple(
-            channel
+        motors={
+            number: entry
             for device in model.scene.vehicles[index].parts_of(ArduPilotSpec)
-            for channel in device.channels
-        ),
+            for number, entry in device.thrusters.items()
+        },
     )

@@ -153,7 +153,7 @@ def name_actuators(log: VehicleLog, model: VehicleModel) -> VehicleLog:
     Raises:
         BadSetting: a motor of an autopilot has no channel with a thruster.
     """
-    log = name_motors(log, model.channels, model.name)
+    log = name_motors(log, model.motors, model.name)
     names = {"thrusters": model.thrusters, "fins": model.fins}
     series = (part.name_in_order(names.get(part.kind, part.names)) for part in log.commands)
     return replace(log, commands=tuple(series))

@@ -23,11 +23,10 @@ are on the line from the one to the other (`samples.interpolate_commands`).
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Protocol
 
 import numpy as np
 
@@ -271,26 +270,9 @@ def _scale_output(
     return commands
 
 
-class MotorChannel(Protocol):
-    """The servo output of an autopilot that drives a thruster, as ``<channel>`` describes it."""
-
-    @property
-    def number(self) -> int:
-        """The number of the channel, from 1."""
-        ...
-
-    @property
-    def thruster(self) -> str | None:
-        """The name of the thruster; None: the channel drives something else."""
-        ...
-
-    @property
-    def reversed(self) -> bool:
-        """True if the command has the opposite sign."""
-        ...
-
-
-def name_motors(log: VehicleLog, channels: Iterable[MotorChannel], vehicle: str) -> VehicleLog:
+def name_motors(
+    log: VehicleLog, thrusters: Mapping[int, tuple[str, float]], vehicle: str
+) -> VehicleLog:
     """Return a log whose commands have the names and the signs of the vehicle's thrusters.
 
     Motor m of the log is the thruster of channel m, with the opposite sign if the channel is
@@ -300,18 +282,14 @@ def name_motors(log: VehicleLog, channels: Iterable[MotorChannel], vehicle: str)
 
     Args:
         log: the log; it is returned as it is if its commands are not those of motors.
-        channels: the channels of the vehicle's ``<u:ardupilot>``.
+        thrusters: the name of the thruster and the sign of its command, by number of the channel;
+            without any, the log is returned as it is.
         vehicle: the name of the vehicle.
 
     Raises:
         BadSetting: a motor has no channel with a thruster.
     """
-    by_number = {
-        channel.number: (channel.thruster, channel.reversed)
-        for channel in channels
-        if channel.thruster is not None
-    }
-    if not by_number:
+    if not thrusters:
         return log
 
     def rename(series: CommandSeries) -> CommandSeries:
@@ -319,15 +297,15 @@ def name_motors(log: VehicleLog, channels: Iterable[MotorChannel], vehicle: str)
         numbers = [int(match[1]) for match in matches if match is not None]
         if series.kind != "thrusters" or len(numbers) != len(series.names):
             return series
-        lost_motors = [number for number in numbers if number not in by_number]
+        lost_motors = [number for number in numbers if number not in thrusters]
         if lost_motors:
             raise BadSetting(
                 f"Motor {lost_motors[0]} of the log has no <channel> with a thruster in "
                 f"<u:ardupilot> of {vehicle!r}. Name the thrusters in [commands.thrusters] of "
                 "a mapping file."
             )
-        names = tuple(by_number[number][0] for number in numbers)
-        signs = np.array([-1.0 if by_number[number][1] else 1.0 for number in numbers])
+        names = tuple(thrusters[number][0] for number in numbers)
+        signs = np.array([thrusters[number][1] for number in numbers])
         return replace(series, names=names, values=series.values * signs)
 
     return replace(log, commands=tuple(rename(series) for series in log.commands))

@@ -96,12 +96,9 @@ class _Measurement:
             self._remarks.append(
                 "the scene has waves or currents; each window begins at their time 0."
             )
-        channels = [
-            channel
-            for device in self._model.scene.vehicles[self._index].parts_of(ArduPilotSpec)
-            for channel in device.channels
-        ]
-        self._log = name_motors(log, channels, self._name)
+        devices = self._model.scene.vehicles[self._index].parts_of(ArduPilotSpec)
+        thrusters = {k: entry for device in devices for k, entry in device.thrusters.items()}
+        self._log = name_motors(log, thrusters, self._name)
         self._command_kinds: tuple[str, ...] = ()
 
     def run(self) -> Gap:

@@ -15,6 +15,7 @@ with ``--ardupilot`` (or ``udp_address`` in Python); in all other runs the eleme
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Literal
@@ -79,6 +80,15 @@ class ArduPilotSpec(DeviceSpec):
     def udp_port(self) -> int:
         """The UDP port."""
         return self.port or FIRST_PORT + PORTS_PER_INSTANCE * self.instance
+
+    @property
+    def thrusters(self) -> Mapping[int, tuple[str, float]]:
+        """The thruster and the sign of its command, by number of the channel."""
+        return {
+            channel.number: (channel.thruster, -1.0 if channel.reversed else 1.0)
+            for channel in self.channels
+            if channel.thruster is not None
+        }
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
