@@ -235,6 +235,16 @@ def test_a_px4_that_leaves_ends_the_run() -> None:
         run(hold_depth, stub={"n_answers": 10})
 
 
+def test_another_client_cannot_take_the_place_of_a_px4_that_leaves() -> None:
+    port = find_free_port()
+    with open_simulation(port) as simulation:
+        px4 = Px4Stub(port, hold_depth, n_answers=10)
+        simulation.advance()
+        with connect(port), pytest.raises(ClientLost, match="another client has connected"):
+            simulation.advance(1.0)
+    px4.join()
+
+
 def test_a_px4_without_lock_step_ends_the_run() -> None:
     with pytest.raises(ClientLost, match="lock-step"):
         run(hold_depth, stub={"flags": 0})

@@ -7,7 +7,14 @@ arrays are copies.
 
 from __future__ import annotations
 
-from .connections import Address, ByteStream, Connections, DatagramPort, TerminalStream
+from .connections import (
+    Address,
+    ByteStream,
+    Connections,
+    DatagramPort,
+    ServerStream,
+    TerminalStream,
+)
 from .parts import (
     GRAVITY,
     TIMESTEP,
@@ -51,6 +58,7 @@ __all__ = [
     "MovingBody",
     "Rays",
     "SensorWorld",
+    "ServerStream",
     "Stage",
     "StageWater",
     "TerminalStream",

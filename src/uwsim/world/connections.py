@@ -43,6 +43,15 @@ class TerminalStream(ByteStream, Protocol):
         """The path of the terminal."""
 
 
+@runtime_checkable
+class ServerStream(ByteStream, Protocol):
+    """A stream of a server of one client at a time, which another one may replace."""
+
+    @property
+    def n_clients(self) -> int:
+        """The number of clients so far."""
+
+
 class DatagramPort(Protocol):
     """A UDP port that talks to one peer, whose datagrams others cannot displace."""
 

@@ -10,8 +10,9 @@ next          the next frame
 the same      the answer was lost: it is sent again, and no step is taken. If it was only late, that
               is, the packets wait together, one answer suffices
 skipped       packets were lost; they are counted
-lower         ArduPilot was started again; the simulation continues, with or without the vehicle
-              back at its start, or ends as invalid
+lower         near 0, or twice in a row: ArduPilot was started again; the simulation continues, with
+              or without the vehicle back at its start, or ends as invalid. Else a repeated packet
+              that the network delayed: it is counted, and nothing else
 first, not 0  ArduPilot was running before this simulation, perhaps left over from an earlier run
 ============  =====================================================================================
 
@@ -49,6 +50,8 @@ MAX_DRAINED = 64
 """The greatest number of waiting packets that one answer covers."""
 CHECK_PERIOD = 64
 """The number of answers after which datagrams of other senders are counted."""
+FIRST_FRAMES = 10
+"""The number of frames of a start: a lower number among them is a new start at once."""
 MAX_COUNTED = 64
 """The greatest number of other datagrams that are counted at once, one for each exchange."""
 MAX_SEARCHED = 1000
@@ -61,6 +64,8 @@ class ExchangeState(Record):
 
     frame_count: int | None = None
     """The number of the last frame; None before the first packet."""
+    late_count: int | None = None
+    """The number of the last packet if it was lower than that of its frame; else None."""
     first_count: int = 0
     """The number of the sender's first frame; not 0 if it was running before."""
     pwm: tuple[int, ...] = ()
@@ -151,7 +156,7 @@ class Exchange:
             packet = read_servo_packet(datagram[0])
             if packet is None:
                 state.n_invalid += 1
-            elif packet.frame_count == state.frame_count:
+            elif packet.frame_count == state.frame_count or self._is_late(packet):
                 state.n_duplicates += 1
             else:
                 self._count_frames(packet)
@@ -177,9 +182,23 @@ class Exchange:
             state.n_duplicates += 1
             self._port.send(state.answer)
             return False
+        if not is_new_sender and self._is_late(packet):
+            state.n_duplicates += 1
+            return False
         self._count_frames(packet)
         state.is_pending = True
         return True
+
+    def _is_late(self, packet: ServoPacket) -> bool:
+        """Return whether a packet of the same sender is an old one that the network delayed.
+
+        A program that starts sends a number near 0, and the same number until it has the answer.
+        """
+        state = self.state
+        is_lower = state.frame_count is not None and packet.frames_since(state.frame_count) < 0
+        is_repeated = packet.frame_count == state.late_count
+        state.late_count = packet.frame_count if is_lower else None
+        return is_lower and packet.frame_count >= FIRST_FRAMES and not is_repeated
 
     def _count_frames(self, packet: ServoPacket) -> None:
         """Store a packet, and count lost packets and new starts from its number.

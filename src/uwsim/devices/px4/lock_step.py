@@ -24,7 +24,7 @@ from ...autopilots.px4 import (
 from ...base.record import Record
 from ...base.terminal import report
 from ...errors import ClientLost
-from ...world import ByteStream
+from ...world import ByteStream, ServerStream
 
 HINT = (
     "PX4_SYS_AUTOSTART=60002 PX4_SIMULATOR=none PX4_PARAM_SIM_GZ_EN=0 "
@@ -77,6 +77,7 @@ class LockStep:
     ) -> None:
         self._stream, self._address, self._limit = stream, address, limit
         self._reader = FrameReader(RECEIVED_FORMATS)
+        self._n_clients = 0
         self.state = state
         """The state of the exchange."""
 
@@ -117,6 +118,7 @@ class LockStep:
         if not is_answered:
             self._wait_for(clock)
         self.state.clock_offset = clock + period - round(1e6 * time)
+        self._n_clients = self._count_clients()
 
     def exchange(self, messages: list[HilMessage], clock: int) -> ActuatorControls:
         """Send messages, the last of which is HIL_SENSOR, and return the answer.
@@ -130,6 +132,7 @@ class LockStep:
         """
         if not self._stream.is_connected:
             raise ClientLost(f"PX4 has closed the connection to {self._address}.")
+        self._check_client()
         self._send(messages)
         return self._wait_for(clock)
 
@@ -156,6 +159,7 @@ class LockStep:
                     return answer
                 self.state.n_stale += 1
             self._check_skipped(n_skipped)
+            self._check_client()
             if not self._stream.is_connected:
                 raise ClientLost(f"PX4 has closed the connection to {self._address}.")
         raise ClientLost(
@@ -203,6 +207,17 @@ class LockStep:
             raise ClientLost(
                 f"{self._address} received more than {MAX_BYTES} bytes that are no messages of PX4 "
                 "while an answer was due."
+            )
+
+    def _count_clients(self) -> int:
+        return self._stream.n_clients if isinstance(self._stream, ServerStream) else 0
+
+    def _check_client(self) -> None:
+        """Raise ClientLost if another client is connected than at the start, as no step waits."""
+        if self._n_clients and self._count_clients() != self._n_clients:
+            raise ClientLost(
+                f"PX4 has closed the connection to {self._address}, or was silent, and another "
+                "client has connected. Start the run and PX4 again."
             )
 
     def _check_lock_step(self, answer: ActuatorControls) -> None:
