@@ -125,11 +125,12 @@ ALONE = [path for path in SCENES if path.read_text().count("<vehicle>") == 1]
 """Scenes with one vehicle: two of them may be too far apart to be seen in one view."""
 
 COVERED = {
+    ("docking-scene", "orbit"): 0.004,
     ("pier-waves-scene", "orbit"): 0.005,
     ("pier-waves-scene", "top"): 0.002,
     ("wreck-physical-scene", "top"): 0.005,
 }
-"""The least shares of the image of vehicles that a pier or a wreck covers in part; else 1 %."""
+"""The least shares of vehicles that are far away or that a pier or a wreck covers; else 1 %."""
 
 
 def vehicles_of(scene: Path) -> tuple[str, ...]:

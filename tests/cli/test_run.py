@@ -211,7 +211,9 @@ def test_ctrl_c_keeps_what_is_recorded(scene: Path) -> None:
         text=True,
     )
     folder = scene.parent / ".run.mcap.partial" / "recording"
-    while sum(path.stat().st_size for path in folder.glob("*.mcap")) < 10_000:  # some messages
+    sizes: set[int] = set()  # the space is reserved in steps, the second one for messages
+    while len(sizes) < 2:
+        sizes |= {path.stat().st_size for path in folder.glob("*.mcap") if path.stat().st_size}
         time.sleep(0.05)
         assert process.poll() is None
     os.kill(process.pid, signal.SIGINT)

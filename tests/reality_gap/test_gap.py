@@ -336,7 +336,7 @@ def test_a_log_below_the_floor_of_the_scene_is_said_before_the_first_window(
     true_log: Path,
 ) -> None:
     scene = read_scene(scene_file("bluerov2-scene", ()))
-    with pytest.raises(BadSetting, match=r"The log is below '\w+' of the scene.*set origin"):
+    with pytest.raises(BadSetting, match=r"The log is below '\w+' of the scene.*Set origin"):
         measure(true_log, scene, has_attribution=False)
 
 

@@ -64,6 +64,7 @@ STYLE: Any = {
     "figure.facecolor": "white",
     "savefig.facecolor": "white",
     "svg.hashsalt": "uwsim",
+    "mathtext.default": "it",
 }
 
 
