@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
@@ -27,21 +26,15 @@ import numpy as np
 from ..base.geometry import Array
 from ..base.numerics import elementwise
 from ..base.numerics.linear import length
-from ..bus import Node
-from ..errors import BadSetting, UnknownName
-from ..messages import Empty, Float64MultiArray, Twist, TwistStamped, Vector3, header
-from .policy import OBSERVATION, START_SERVICE, slices_of
-from .tracker_node import merge_parameters
+from .control.observation_controller import ObservationController
 
-CHANNELS = ("positionError", "heading")
-"""The parts of the observation that are used."""
 FUNNEL_SLOPE, FUNNEL_START = 0.4, 1.0
 """The slope of the funnel [1], and the distance from the goal at which it begins [m]."""
 WAITING_DISTANCE = 1.7
 """The distance from the goal at which the vehicle comes onto the axis [m]."""
 
 
-class Docking:
+class Docking(ObservationController):
     """A guidance into a dock: turns to its axis, comes onto it, and moves along it."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -52,51 +45,29 @@ class Docking:
         "speed": 0.25,
         "width": 0.12,
         "limit": 0.5,
-        "twist_topic": "/bluerov2/twist",
+        **ObservationController.PARAMETERS,
     }
     """The heading of the dock's ``axis`` [rad], the gains ``kp`` [1/s], ``ki`` [1/s^2] and
     ``turn_gain`` [1/s], the ``speed`` along the axis [m/s], the half ``width`` of the lane in the
     dock [m], the speed ``limit`` of an axis [m/s], and the topic of the commands."""
+    CHANNELS: ClassVar[tuple[str, ...]] = ("positionError", "heading")
+    """The parts of the observation that are needed."""
+    KIND: ClassVar[str] = "guidance"
+    """The kind of the algorithm in messages."""
 
     def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
+        super().__init__()
         self._integral = np.zeros(3)  # [m s]
-        self._time: float | None = None
 
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
-    def start(self, node: Node) -> None:
-        """Read the parameters, subscribe to the observations, and start the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
-        self._node = node
-        self._publish = node.publisher(str(self._parameters["twist_topic"]), TwistStamped)
-        node.subscribe(OBSERVATION, Float64MultiArray, self._on_observation)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
-
-    def _number(self, name: str) -> float:
-        return float(self._parameters[name])
-
-    def _on_observation(self, message: Float64MultiArray) -> None:
-        parts = {name: message.data[part] for name, part in slices_of(message).items()}
-        for channel in CHANNELS:
-            if channel not in parts:
-                raise BadSetting(f"The observation has no {channel}, which this guidance needs.")
+    def command(self, parts: Mapping[str, Array], dt: float) -> tuple[Array, float]:
+        """Return the commanded velocity and the turn rate; see `ObservationController`."""
         bow_x, bow_y = parts["heading"].tolist()
         turn = self._number("axis") - float(elementwise.arctan2(bow_y, bow_x))
         turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi) + 0.5)
-        x, y, z = self._command(parts["positionError"], turn).tolist()
-        turn_rate = self._number("turn_gain") * turn
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=turn_rate))
-        self._publish(TwistStamped(header=header(self._node.now), twist=twist))
+        return self._velocity(parts["positionError"], turn, dt), self._number("turn_gain") * turn
 
-    def _command(self, error: Array, turn: float) -> Array:
+    def _velocity(self, error: Array, turn: float, dt: float) -> Array:
         """Return the commanded velocity in the axes of the vehicle, (3,) [m/s]."""
-        dt = 0.0 if self._time is None else self._node.now - self._time
-        self._time = self._node.now
         kp, limit = self._number("kp"), self._number("limit")
         axis = np.array([math.cos(turn), math.sin(turn), 0.0])
         distance = float(np.sum(error * axis))

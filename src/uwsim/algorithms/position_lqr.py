@@ -23,23 +23,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
 
 from ..base.geometry import Array
-from ..bus import Node
-from ..errors import BadSetting, UnknownName
-from ..messages import Empty, Float64MultiArray, Twist, TwistStamped, Vector3, header
-from .policy import OBSERVATION, START_SERVICE, slices_of
-from .tracker_node import merge_parameters
+from ..errors import BadSetting
+from .control.observation_controller import ObservationController
 
 N_ITERATIONS = 4000
 """The number of iterations of the Riccati equation."""
 
 
-class PositionLQR:
+class PositionLQR(ObservationController):
     """A linear-quadratic regulator of position: integral, feed-forward, gains from a model."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -47,22 +43,18 @@ class PositionLQR:
         "integral_weight": 0.3,
         "input_weight": 0.2,
         "limit": 0.6,
-        "twist_topic": "/bluerov2/twist",
+        **ObservationController.PARAMETERS,
     }
     """The time constant ``lag`` of the velocity loops [s], the weights of integral [1/s^2] and
     input [s^2], the speed ``limit`` of an axis [m/s], and the topic of the commands."""
+    CHANNELS: ClassVar[tuple[str, ...]] = ("positionError", "linearVelocity")
+    """The parts of the observation that are needed."""
 
     def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
+        super().__init__()
         self._integral = np.zeros(3)  # [m s]
         self._reference: Array | None = None  # the last reference velocity (3,) [m/s]
-        self._time: float | None = None
         self._gains: tuple[float, float, float] | None = None
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
 
     @staticmethod
     def check_parameters(parameters: Mapping[str, float | str]) -> None:
@@ -71,36 +63,22 @@ class PositionLQR:
             if name in parameters and not float(parameters[name]) > 0.0:
                 raise BadSetting(f"algorithm.{name} is {parameters[name]}; expected more than 0.")
 
-    def start(self, node: Node) -> None:
-        """Read the parameters, subscribe to the observations, and start the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
-        self._node = node
-        self._publish = node.publisher(str(self._parameters["twist_topic"]), TwistStamped)
-        node.subscribe(OBSERVATION, Float64MultiArray, self._on_observation)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
-
-    def _on_observation(self, message: Float64MultiArray) -> None:
-        parts = {name: message.data[part] for name, part in slices_of(message).items()}
-        for channel in ("positionError", "linearVelocity"):
-            if channel not in parts:
-                raise BadSetting(f"The observation has no {channel}, which this controller needs.")
+    def command(self, parts: Mapping[str, Array], dt: float) -> tuple[Array, float]:
+        """Return the commanded velocity and no turn rate; see `ObservationController`."""
         reference = parts.get("referenceVelocity", np.zeros(3))
-        x, y, z = self._command(parts["positionError"], parts["linearVelocity"], reference).tolist()
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=0.0))
-        self._publish(TwistStamped(header=header(self._node.now), twist=twist))
+        velocity = self._velocity(parts["positionError"], parts["linearVelocity"], reference, dt)
+        return velocity, 0.0
 
-    def _command(self, error: Array, velocity: Array, reference: Array) -> Array:
+    def _velocity(self, error: Array, velocity: Array, reference: Array, dt: float) -> Array:
         """Return the commanded velocity in the axes of the vehicle, (3,) [m/s]."""
-        lag, limit = float(self._parameters["lag"]), float(self._parameters["limit"])
-        dt = 0.0 if self._time is None else self._node.now - self._time
+        lag, limit = self._number("lag"), self._number("limit")
         feedforward = reference
         if dt > 0.0 and self._reference is not None:
             if self._gains is None:
-                weights = [float(self._parameters[f"{name}_weight"]) for name in WEIGHTS]
+                weights = [self._number(f"{name}_weight") for name in WEIGHTS]
                 self._gains = compute_gains(lag, dt, *weights)
             feedforward = reference + lag * (reference - self._reference) / dt
-        self._time, self._reference = self._node.now, reference
+        self._reference = reference
         if self._gains is None:
             return np.clip(feedforward, -limit, limit)
         k_integral, k_error, k_velocity = self._gains

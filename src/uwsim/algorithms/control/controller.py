@@ -90,14 +90,15 @@ class StationKeeper:
         kp: the proportional gain [1/s].
         ki: the integral gain [1/s^2].
         limit: the greatest speed along an axis [m/s].
+        n_axes: the number of axes n.
     """
 
-    def __init__(self, *, kp: float, ki: float, limit: float) -> None:
+    def __init__(self, *, kp: float, ki: float, limit: float, n_axes: int = 2) -> None:
         self._kp, self._ki, self._limit = kp, ki, limit
-        self._integral = np.zeros(2)  # [m s]
+        self._integral = np.zeros(n_axes)  # [m s]
 
     def step(self, error: Array, dt: float) -> Array:
-        """Compute surge and sway; see `Law`."""
+        """Compute the speeds along the axes, (n,) [m/s]; see `Law`."""
         integral = self._integral + error * dt
         speeds = self._kp * error + self._ki * integral
         is_winding_up = (np.abs(speeds) > self._limit) & (speeds * error > 0.0)
