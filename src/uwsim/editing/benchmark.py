@@ -14,7 +14,6 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, TypeVar
 
 from ..benchmark.plugin import Plugin
 from ..benchmark.plugin_tables import Tables
@@ -25,21 +24,17 @@ from ..benchmark.updaters import NoneSpec
 from ..benchmark.writer import write_benchmark
 from ..checks.benchmark_tables import read_plugins
 from ..errors import BenchmarkError, Diagnostic
-from ..schema import Spec
-from .element import Element
+from .document import Document, check_equal
 from .file_names import move_file_names
-from .scene import Scene, check_equal
+from .scene import Scene
 from .text_diagnostics import locate_diagnostics
 from .tree import (
     check_name,
-    copy_element,
-    find_element,
     references_to,
     remove_with_references,
-    typed_element,
+    rename_element,
 )
 
-T = TypeVar("T", bound=Spec)
 NAME = "the benchmark"
 """The name in messages of a benchmark that was not read from a file."""
 EMPTY_BENCHMARK = BenchmarkSpec(
@@ -52,7 +47,7 @@ EMPTY_BENCHMARK = BenchmarkSpec(
 """The contents of a new benchmark: it starts at once, and measures nothing."""
 
 
-class Benchmark(Element[BenchmarkSpec]):
+class Benchmark(Document[BenchmarkSpec]):
     """A benchmark that a program changes.
 
     Its attributes are the elements of a benchmark file: ``measures``, ``function``, ``start_on``,
@@ -74,29 +69,11 @@ class Benchmark(Element[BenchmarkSpec]):
         super().__init__(EMPTY_BENCHMARK if spec is None else spec, tables=tables)
         self._plugins = plugins
 
-    def __getitem__(self, path: str) -> Element[Any]:
-        return find_element(self, path)
-
-    def find(self, path: str, kind: type[T]) -> Element[T]:
-        """Return the element at a path, whose spec is of a kind that type checkers know.
-
-        Raises:
-            UnknownName: there is no element at the path.
-            BadSetting: the element is of another kind.
-        """
-        return typed_element(self, path, kind)
-
-    def copy(self, path: str, new_name: str) -> Element[Any]:
-        """Add a copy of the measure of a name, and return it."""
-        return copy_element(self, path, new_name)
-
     def rename(self, path: str, new_name: str) -> None:
         """Rename a measure, also in the score, the reward and the criterion of success."""
         element = check_name(self, path, new_name)
         references = references_to(self, path, new_name)
-        element.set(name=new_name)
-        for reference in references:
-            reference.element.set(**{reference.field: reference.new_text})
+        rename_element(element, new_name, references)
 
     def remove(self, path: str) -> None:
         """Remove the element at a path, such as a measure.
@@ -189,13 +166,6 @@ class Benchmark(Element[BenchmarkSpec]):
     def plugin_files(self) -> tuple[Path, ...]:
         """The files of the plugins with which the benchmark was read."""
         return tuple(Path(plugin.path) for plugin in (self._plugins or ((),))[0])
-
-    def folders(self, data_path: Sequence[str | Path] = ()) -> tuple[Path, ...]:
-        """Return the folders in which files are searched, if the file is written elsewhere."""
-        from ..assets.find import parent_folders
-
-        named_by = Path(self.path) if self.path else None
-        return (*parent_folders(named_by), *(Path(folder) for folder in data_path))
 
 
 def read_benchmark(

@@ -11,11 +11,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from ..benchmark.spec import BenchmarkSpec
 from ..errors import BadSetting, Diagnostic, SceneError
@@ -24,29 +23,27 @@ from ..scene.reader import read_scene as read_scene_file
 from ..scene.spec import SceneSpec
 from ..scene.vehicle import VehicleSpec
 from ..scene.writer import write_scene
-from ..schema import Spec
 from ..world import TIMESTEP
+from .document import Document, check_equal
 from .element import Element
 from .file_names import move_file_names
 from .text_diagnostics import locate_diagnostics
 from .tree import (
     check_name,
-    copy_element,
-    find_element,
     references_to,
     remove_with_references,
+    rename_element,
     typed_element,
 )
 
 if TYPE_CHECKING:
     from ..model.scene_model import SceneModel
 
-T = TypeVar("T", bound=Spec)
 NAME = "the scene"
 """The name in messages of a scene that was not read from a file."""
 
 
-class Scene(Element[SceneSpec]):
+class Scene(Document[SceneSpec]):
     """A scene that a program changes.
 
     Its attributes are the elements of a scene file: ``ocean_state``, ``vehicles``, ``objects``.
@@ -59,18 +56,6 @@ class Scene(Element[SceneSpec]):
     def __init__(self, spec: SceneSpec | None = None) -> None:
         super().__init__(SceneSpec() if spec is None else spec)
 
-    def __getitem__(self, path: str) -> Element[Any]:
-        return find_element(self, path)
-
-    def find(self, path: str, kind: type[T]) -> Element[T]:
-        """Return the element at a path, whose spec is of a kind that type checkers know.
-
-        Raises:
-            UnknownName: there is no element at the path.
-            BadSetting: the element is of another kind.
-        """
-        return typed_element(self, path, kind)
-
     def vehicle(self, name: str) -> Element[VehicleSpec]:
         """Return a vehicle; raise UnknownName if there is none of that name."""
         return typed_element(self, name, VehicleSpec)
@@ -78,10 +63,6 @@ class Scene(Element[SceneSpec]):
     def object(self, name: str) -> Element[ObjectSpec]:
         """Return an object; raise UnknownName if there is none of that name."""
         return typed_element(self, name, ObjectSpec)
-
-    def copy(self, path: str, new_name: str) -> Element[Any]:
-        """Add a copy of the element at a path, and return it; its interfaces are not copied."""
-        return copy_element(self, path, new_name)
 
     def rename(
         self, path: str, new_name: str, *, benchmarks: Sequence[Element[BenchmarkSpec]] = ()
@@ -101,9 +82,7 @@ class Scene(Element[SceneSpec]):
         references = [
             entry for root in roots for entry in references_to(root, path, new_name, self)
         ]
-        element.set(name=new_name)
-        for reference in references:
-            reference.element.set(**{reference.field: reference.new_text})
+        rename_element(element, new_name, references)
 
     def remove(self, path: str, *, with_references: bool = False) -> None:
         """Remove the element at a path.
@@ -190,13 +169,6 @@ class Scene(Element[SceneSpec]):
         write_text(new_path, moved_scene.to_xml())
         return new_path
 
-    def folders(self, data_path: Sequence[str | Path] = ()) -> tuple[Path, ...]:
-        """Return the folders in which files are searched, for a scene that is written elsewhere."""
-        from ..assets.find import parent_folders
-
-        named_by = Path(self.path) if self.path else None
-        return (*parent_folders(named_by), *(Path(folder) for folder in data_path))
-
     @property
     def arguments(self) -> Mapping[str, str]:
         """The values of the xacro arguments with which the scene was read."""
@@ -225,10 +197,3 @@ def read_scene(
     texts = {name: str(value) for name, value in (arguments or {}).items()}
     path = scene_file(str(scene), folders)
     return Scene(read_scene_file(path, data_path=folders, arguments=texts))
-
-
-def check_equal(spec: Spec, read_spec: Spec) -> None:
-    """Raise BadSetting if the spec of a written text is another one."""
-    for field in dataclasses.fields(spec):
-        if field.compare and getattr(spec, field.name) != getattr(read_spec, field.name):
-            raise BadSetting(f"{field.name} has a value that a file cannot contain.")

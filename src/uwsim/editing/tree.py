@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
@@ -166,6 +166,13 @@ def check_name(root: Element[Any], path: str, new_name: str) -> Element[Any]:
     if new_name in child_elements(parent) and new_name != name_of(element):
         raise BadSetting(f"{parent.label} has {new_name!r} already; names are unique.")
     return element
+
+
+def rename_element(element: Element[Any], new_name: str, references: Sequence[Reference]) -> None:
+    """Set the name of an element, and the text of all references to it."""
+    element.set(name=new_name)
+    for reference in references:
+        reference.element.set(**{reference.field: reference.new_text})
 
 
 def remove_element(element: Element[Any]) -> None:
