@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from uwsim.assets.bundled import scene_file
-from uwsim.devices.ardupilot import ArduPilotSpec
+from uwsim.devices.ardupilot import ArduPilotSpec, thrusters_of
 from uwsim.errors import BadSetting
 from uwsim.logs import CommandSeries, VehicleLog, name_motors
 from uwsim.scene.reader import read_scene
@@ -22,8 +22,7 @@ def make_log(*names: str) -> VehicleLog:
 
 def thrusters_of_bluerov2() -> Mapping[int, tuple[str, float]]:
     vehicle = read_scene(scene_file("bluerov2-scene", ())).vehicles[0]
-    [autopilot] = vehicle.parts_of(ArduPilotSpec)
-    return autopilot.thrusters
+    return thrusters_of(vehicle.parts_of(ArduPilotSpec))
 
 
 def test_a_motor_is_the_thruster_of_its_channel() -> None:

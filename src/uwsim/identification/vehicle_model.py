@@ -11,7 +11,7 @@ import numpy as np
 
 from ..base.geometry import Pose, rotation_from_quaternion
 from ..base.numerics.linear import product
-from ..devices.ardupilot import ArduPilotSpec
+from ..devices.ardupilot import ArduPilotSpec, thrusters_of
 from ..errors import BadSetting, UnknownName
 from ..model.body_names import vehicle_body, vehicle_fin, vehicle_thruster
 from ..physics.compile_scene import compile_scene
@@ -176,9 +176,5 @@ def open_vehicle(scene: SceneSpec, name: str | None = None) -> VehicleModel:
             for i in actuators_in_water(engine_model, root)
         ),
         world_from_localized=scene.world_from_localized,
-        motors={
-            number: entry
-            for device in model.scene.vehicles[index].parts_of(ArduPilotSpec)
-            for number, entry in device.thrusters.items()
-        },
+        motors=thrusters_of(model.scene.vehicles[index].parts_of(ArduPilotSpec)),
     )

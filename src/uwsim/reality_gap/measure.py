@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..base.geometry import Array
-from ..devices.ardupilot import ArduPilotSpec
+from ..devices.ardupilot import ArduPilotSpec, thrusters_of
 from ..errors import BadSetting
 from ..logs import VehicleLog, name_motors
 from ..model.body_names import vehicle_body
@@ -97,8 +97,7 @@ class _Measurement:
                 "the scene has waves or currents; each window begins at their time 0."
             )
         devices = self._model.scene.vehicles[self._index].parts_of(ArduPilotSpec)
-        thrusters = {k: entry for device in devices for k, entry in device.thrusters.items()}
-        self._log = name_motors(log, thrusters, self._name)
+        self._log = name_motors(log, thrusters_of(devices), self._name)
         self._command_kinds: tuple[str, ...] = ()
 
     def run(self) -> Gap:

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from .link import ArduPilotLink
-from .spec import ArduPilotSpec
+from .spec import ArduPilotSpec, thrusters_of
 
-__all__ = ["ArduPilotLink", "ArduPilotSpec"]
+__all__ = ["ArduPilotLink", "ArduPilotSpec", "thrusters_of"]

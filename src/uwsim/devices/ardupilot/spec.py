@@ -15,7 +15,7 @@ with ``--ardupilot`` (or ``udp_address`` in Python); in all other runs the eleme
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Literal
@@ -80,15 +80,6 @@ class ArduPilotSpec(DeviceSpec):
     def udp_port(self) -> int:
         """The UDP port."""
         return self.port or FIRST_PORT + PORTS_PER_INSTANCE * self.instance
-
-    @property
-    def thrusters(self) -> Mapping[int, tuple[str, float]]:
-        """The thruster and the sign of its command, by number of the channel."""
-        return {
-            channel.number: (channel.thruster, -1.0 if channel.reversed else 1.0)
-            for channel in self.channels
-            if channel.thruster is not None
-        }
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
@@ -161,3 +152,13 @@ def _base_of(vehicle: DeviceVehicle) -> MovingBody:
     """Return the base frame of a vehicle with its motion."""
     base_name = vehicle.compiled_vehicle.base_mount().name
     return vehicle.moving_mount(_BasePart(base_name.removeprefix(f"{vehicle.name}/")))
+
+
+def thrusters_of(devices: Iterable[ArduPilotSpec]) -> Mapping[int, tuple[str, float]]:
+    """Return the thruster and the sign of its command, by number of the channel."""
+    return {
+        channel.number: (channel.thruster, -1.0 if channel.reversed else 1.0)
+        for device in devices
+        for channel in device.channels
+        if channel.thruster is not None
+    }
