@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from pathlib import Path
 from typing import Any
 
 import gymnasium
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 from gymnasium.wrappers.vector import RecordEpisodeStatistics
 
+from uwsim.assets.find import find
 from uwsim.base.expression import parse
 from uwsim.benchmark.environment.array_expression import evaluate_rows
 from uwsim.envs import TASKS, RowVectorEnv, make_env
@@ -21,19 +23,61 @@ def make_rows(task: str, n: int, **options: Any) -> Any:
 
 
 @pytest.mark.parametrize("task", [task for task in TASKS if task != "uwsim/Docking-v0"])
-def test_a_row_in_still_water_is_the_environment_of_the_engine(task: str) -> None:
+def test_a_row_is_the_environment_of_the_engine(task: str) -> None:
     rows, env = make_rows(task, 2), make_env(TASKS[task])
-    options = {"level": {"current": 0.0}}
+    options = {"level": {"current": 0.3}}  # which flows from 2 s on
     observations, _ = rows.reset(seed=4, options=options)
     observation, _ = env.reset(seed=5, options=options)
     np.testing.assert_allclose(observations[1], observation, atol=1e-12)
     rng = np.random.default_rng(0)
-    for _ in range(40):
+    for _ in range(60):
         actions = rng.uniform(-1.0, 1.0, (2, 8)).astype(np.float32)
         observations, rewards, *_ = rows.step(actions)
         observation, reward, *_ = env.step(actions[1])
         np.testing.assert_allclose(observations[1], observation, atol=1e-10)
         assert rewards[1] == pytest.approx(reward, abs=1e-10)
+    env.close()
+    rows.close()
+
+
+CURRENTS = """<u:current>
+      <u:gaussMarkov>
+        <u:mean> <x>0.1</x> <y>0</y> <z>0</z> </u:mean>
+        <u:deviation> <x>0.05</x> <y>0.05</y> <z>0</z> </u:deviation> <u:mu>0.1</u:mu>
+      </u:gaussMarkov>
+      <u:powerProfile>
+        <u:velocity> <x>0.1</x> <y>0</y> <z>0</z> </u:velocity> <u:depth>4</u:depth>
+      </u:powerProfile>
+    </u:current>
+    <u:waves>
+      <u:regularWave> <u:height>0.3</u:height> <u:period>3</u:period> </u:regularWave>
+    </u:waves>"""
+VARIED_PATH = "oceanState.current.powerProfile.velocity.y"
+
+
+def write_scene(folder: Path, *, currents: str = CURRENTS, path: str = VARIED_PATH) -> str:
+    """Write the scene of the environments with currents and waves, and another variation."""
+    text = find("open-water-scene.xml").read_text()
+    text = text.replace("<u:water law", f"{currents}<u:water law")
+    variation = f"<u:uniform><u:path>{path}</u:path><u:low>0.2</u:low><u:high>0.3</u:high>"
+    text = text.replace("<u:vary>", f"<u:vary>{variation}</u:uniform>")
+    file = folder / "scene.xml"
+    file.write_text(text)
+    return str(file)
+
+
+def test_a_row_in_the_currents_and_waves_of_a_scene_is_that_of_the_engine(tmp_path: Path) -> None:
+    scene = write_scene(tmp_path)
+    rows = make_rows("uwsim/StationKeeping-v0", 2, scene=scene)
+    env = make_env("station-keeping", scene=scene)
+    options = {"level": {"current": 0.2}}
+    observations, _ = rows.reset(seed=4, options=options)
+    env.reset(seed=5, options=options)
+    for _ in range(60):
+        observations, *_ = rows.step(np.full((2, 8), 0.2, np.float32))
+        observation, *_ = env.step(np.full(8, 0.2, np.float32))
+    np.testing.assert_allclose(observations[1], observation, atol=1e-10)
+    assert np.abs(observations[0] - observations[1]).max() > 1e-3
     env.close()
     rows.close()
 
@@ -100,6 +144,22 @@ def test_rows_that_cannot_step_an_environment_state_why() -> None:
         make_rows("uwsim/Circle-v0", 1, observation=["/bluerov2/odom:pose.pose.position"])
     with pytest.raises(BadSetting, match="expected one of engine, rows"):
         gymnasium.make_vec("uwsim/Circle-v0", stepper="row")
+
+
+def test_rows_refuse_what_only_the_engine_computes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "row_eddy.py").write_text("def eddy(point, time, vehicle):\n    return 0, 0, 0\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    function = "<u:pythonFunction><u:function>row_eddy:eddy</u:function></u:pythonFunction>"
+    scene = write_scene(
+        tmp_path, currents=f"<u:current>{function}</u:current>", path="oceanState.fog.density"
+    )
+    with pytest.raises(BadSetting, match="a current that Python computes"):
+        make_rows("uwsim/Circle-v0", 1, scene=scene)
+    path = "vehicle[bluerov2].hydrodynamics.body[base_link].volume"
+    with pytest.raises(BadSetting, match="<u:vary> changes its vehicle"):
+        make_rows("uwsim/Circle-v0", 1, scene=write_scene(tmp_path, path=path))
 
 
 def test_rows_state_their_stepper() -> None:

@@ -6,34 +6,41 @@ are rewarded by the distance from the reference.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..base.expression import parse
 from ..base.geometry import Array, Pose, quaternion_from_rotation
-from ..base.rng import stream
 from ..benchmark.environment import EnvironmentSpec
 from ..benchmark.environment.reward import REWARD_NAMES
 from ..benchmark.reference_trajectory import TrajectorySpec
 from ..benchmark.triggers.never import NeverSpec
 from ..benchmark.updaters import (
     CurrentForceUpdaterSpec,
-    Level,
-    SceneUpdaterSpec,
+    NoneSpec,
+    RepeatSpec,
+    SeaStateUpdaterSpec,
     chain,
     interval,
 )
+from ..devices.battery import BatterySpec
 from ..errors import BadSetting
 from ..model.body_names import vehicle_body
 from ..model.scene_model import SceneModel
 from ..physics.hydrodynamics.free_vehicle import free_vehicle
 from ..physics.hydrodynamics.kernel.free_step import FreeVehicle
 from ..runs.planning.plan import Plan
+from ..runs.planning.trial_cache import compile_plan
 from ..scene.variation import apply_variations
 from ..topics.thruster_commands import ROSThrustersToPATSpec
+from .batch.flows import n_bodies
 from .episode import environment_of
+from .row_water import WATER_PATHS, RowWater
 
+UPDATERS = (CurrentForceUpdaterSpec, SeaStateUpdaterSpec, NoneSpec, RepeatSpec)
+"""The updaters whose levels rows can have."""
 MAX_EPISODE = 600.0
 """The length of an episode without an interval [s]."""
 
@@ -50,6 +57,8 @@ class RowPlan:
     """The desired position at each time."""
     vehicle: FreeVehicle
     """The numbers of the vehicle."""
+    water: RowWater
+    """The water of the levels."""
     index: int
     """The index of the vehicle in the scene."""
     world_from_localized: Pose
@@ -66,21 +75,6 @@ class RowPlan:
         pose = self.world_from_localized @ Pose.from_rpy(vehicle.position, vehicle.orientation)
         return pose.position, quaternion_from_rotation(pose.rotation)
 
-    def current(self, level: Level, seed: int) -> Array:
-        """Return the current of an episode in W, (3,) [m/s]: constant, within the swing."""
-        updater = chain(self.plan.benchmark.scene_updater)[0]
-        if not isinstance(updater, CurrentForceUpdaterSpec):
-            return np.zeros(3)
-        swing = stream(seed, "environment/current").uniform(-1.0, 1.0, 2)
-        mean, amplitude = updater.spherical_direction, updater.direction_variation
-        theta = mean.theta + float(swing[0]) * amplitude.theta
-        phi = mean.phi + float(swing[1]) * amplitude.phi
-        sine = np.sin(theta)
-        direction = np.array([-sine * np.sin(phi), sine * np.cos(phi), np.cos(theta)])
-        rotation = self.world_from_localized.rotation
-        velocity: Array = level.values[0][1] * np.sum(rotation * direction, axis=1)
-        return velocity
-
 
 def plan_rows(plan: Plan, model: SceneModel) -> RowPlan:
     """Return the numbers of a benchmark that rows step.
@@ -93,25 +87,37 @@ def plan_rows(plan: Plan, model: SceneModel) -> RowPlan:
     reasons = _find_reasons(plan, spec, model)
     if trajectory is None:
         reasons.append("it has no <reference>")
+    _refuse(plan, reasons)
+    assert trajectory is not None
+    index = [vehicle.name for vehicle in model.scene.vehicles].index(spec.vehicle)
+    root = model.engine_model.body(vehicle_body(index, model.robots[index].root)).id
+    vehicle = free_vehicle(model.engine_model, root)
+    length = interval(plan.benchmark.scene_updater) or MAX_EPISODE
+    substeps = max(1, round(spec.period / plan.timestep))
+    max_steps = max(1, round(length / spec.period))
+    n_steps = substeps * max_steps
+    water = RowWater(plan, model, spec.vehicle, n_bodies=n_bodies(vehicle), n_steps=n_steps)
+    _refuse(plan, [*water.reasons(), *_find_variations(plan, spec.vehicle, vehicle, root)])
+    return RowPlan(
+        plan=plan,
+        spec=spec,
+        trajectory=trajectory,
+        vehicle=vehicle,
+        water=water,
+        index=index,
+        world_from_localized=model.scene.world_from_localized,
+        substeps=substeps,
+        max_steps=max_steps,
+    )
+
+
+def _refuse(plan: Plan, reasons: Sequence[str]) -> None:
+    """Raise BadSetting if there is a reason why rows cannot step an environment."""
     if reasons:
         raise BadSetting(
             f"{plan.benchmark.path}: rows cannot step this environment: {'; '.join(reasons)}. "
             "Use stepper='engine'."
         )
-    assert trajectory is not None
-    index = [vehicle.name for vehicle in model.scene.vehicles].index(spec.vehicle)
-    root = model.engine_model.body(vehicle_body(index, model.robots[index].root)).id
-    length = interval(plan.benchmark.scene_updater) or MAX_EPISODE
-    return RowPlan(
-        plan=plan,
-        spec=spec,
-        trajectory=trajectory,
-        vehicle=free_vehicle(model.engine_model, root),
-        index=index,
-        world_from_localized=model.scene.world_from_localized,
-        substeps=max(1, round(spec.period / plan.timestep)),
-        max_steps=max(1, round(length / spec.period)),
-    )
 
 
 def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[str]:
@@ -120,6 +126,10 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
     names = [vehicle.name for vehicle in model.scene.vehicles]
     if len(names) != 1 or names.index(spec.vehicle) not in model.dynamics:
         reasons.append("its scene has other than one vehicle with dynamics")
+    if any(robot.movable_joints for robot in model.robots.values()):
+        reasons.append("its vehicle has moving joints")
+    if any(isinstance(part, BatterySpec) for item in model.scene.vehicles for part in item.parts):
+        reasons.append("its vehicle has a battery, which may limit its thrusters")
     if spec.topic_field:
         reasons.append("it observes topics")
     topics = [
@@ -137,10 +147,14 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
     other_measures = [name for name in reward.names if name not in known_names]
     if other_measures:
         reasons.append(f"its reward has the measure {', '.join(other_measures)}")
-    if not _has_known_updater(plan.benchmark.scene_updater):
-        reasons.append("its updater is other than <currentForceUpdater> or <none>")
-    if plan.scene.ocean_state.currents:
-        reasons.append("its scene has currents")
+    if other_updaters := [
+        updater.name
+        for updater in chain(plan.benchmark.scene_updater)
+        if not isinstance(updater, UPDATERS)
+    ]:
+        reasons.append(f"its updater changes {', '.join(other_updaters)}")
+    if model.scene.forces:
+        reasons.append("its scene has forces")
     solids = [item.name for item in model.scene.objects if item.has_contacts(in_water=True)]
     if solids:
         reasons.append(f"its scene has solid objects ({', '.join(solids[:3])})")
@@ -149,10 +163,15 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
     return reasons
 
 
-def _has_known_updater(updater: SceneUpdaterSpec) -> bool:
-    updaters = chain(updater)
-    is_known = isinstance(updaters[0], CurrentForceUpdaterSpec) or updaters[0].name in (
-        "none",
-        "repeat",
+def _find_variations(plan: Plan, name: str, vehicle: FreeVehicle, root: int) -> list[str]:
+    """Return a reason if ``<u:vary>`` changes the numbers of the vehicle, else nothing."""
+    other_paths = (f"vehicle[{name}].position", f"vehicle[{name}].orientation", *WATER_PATHS)
+    paths = [item.path for item in plan.scene.vary if not item.path.startswith(other_paths)]
+    if not paths:
+        return []
+    other_vehicle = free_vehicle(compile_plan(plan, 1).engine_model, root)
+    is_same = all(
+        np.array_equal(np.asarray(a), np.asarray(b))
+        for a, b in zip(vehicle, other_vehicle, strict=True)
     )
-    return len(updaters) == 1 and is_known
+    return [] if is_same else [f"<u:vary> changes its vehicle ({', '.join(paths)})"]

@@ -1,9 +1,8 @@
 """A vector of environments whose rows compiled code steps together: for training.
 
-The observations, actions and rewards are those of `BenchmarkEnv`, and the physics agree with the
-engine to 1e-10. Not as in the benchmark: the current of an episode is constant in its direction and
-flows from the start, and the measures of the benchmark are not computed. A trained policy is scored
-by ``uwsim bench``.
+The observations, actions and rewards are those of `BenchmarkEnv`, and the physics, currents and
+waves included, agree with the engine to 1e-10. Not as in the benchmark: the measures are not
+computed. A trained policy is scored by ``uwsim bench``.
 """
 
 from __future__ import annotations
@@ -25,6 +24,7 @@ from ..benchmark.environment.observer import MAX_OBSERVATION, limit_numbers
 from ..benchmark.environment.reward import magnitude
 from ..benchmark.updaters import Level
 from ..errors import BadSetting
+from ..physics.hydrodynamics.water_function import WaterFunction
 from ..runs.planning.plan import Plan
 from ..runs.planning.trial_cache import compile_plan
 from .batch.rows import Rows
@@ -161,7 +161,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
     ) -> None:
         """Begin episodes of some rows."""
         row_seeds: list[int | None] = [None] * self.num_envs
-        starts: list[tuple[int, Array, Array, Array]] = []
+        starts: list[tuple[int, Array, Array, WaterFunction | None]] = []
         for i in np.flatnonzero(mask).tolist():
             seed, generator = seeds[i], self._generators[i]
             if seed is not None or generator is None:
@@ -172,11 +172,11 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
             level = draw_level(self._plan.benchmark.scene_updater, seed, choices)
             self._set_level(i, level)
             row_seeds[i], self._seeds[i] = seed, seed
-            starts.append((i, *self._task.start(seed), self._task.current(level, seed)))
+            starts.append((i, *self._task.start(seed), self._task.water.function(seed, level)))
         self._rows.reset(mask, row_seeds)
-        for i, position, attitude, current in starts:
+        for i, position, attitude, water in starts:
             self._rows.states[i, :3], self._rows.states[i, 3:7] = position, attitude
-            self._rows.arrays.water[i, :, :3] = current
+            self._rows.set_water(i, water)
         self._last_actions[mask], self._square_sums[mask] = 0.0, 0.0
         self._rows_to_reset[mask] = False
         if hasattr(self, "_reward"):

@@ -17,6 +17,7 @@ L is the localized world frame.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -121,6 +122,29 @@ class CurrentForceUpdaterSpec(SweepSpec):
             random=self.random,
         )
 
+    def flow(
+        self,
+        value: float,
+        stream: Callable[[str], np.random.Generator],
+        compatibility: Collection[str],
+        *,
+        start: float,
+        delay: float,
+    ) -> Flow:
+        """Return the current of a level.
+
+        Args:
+            value: the mean speed [m/s].
+            stream: returns the random generator of a name.
+            compatibility: the names of the active compatibility quirks.
+            start: the simulation time at which the level begins [s].
+            delay: the time without current from then on [s].
+        """
+        sinusoid = self.current(value).bind(SceneContext(stream=stream))
+        current = DelayedCurrent(sinusoid, start=start, delay=delay, offset=self.time_offset)
+        has_target = "current-target" in compatibility and not self.publish_as_force
+        return TargetCurrent(current, self.target) if has_target else current
+
     def bind(self, stage: Stage) -> CurrentForceUpdater:
         """Resolve the vehicle; raises UnknownName if there is none."""
         if self.target not in stage.vehicles:
@@ -163,12 +187,10 @@ class CurrentForceUpdater(SceneUpdater):
 
     def _set_current(self, value: float, *, delay: float) -> None:
         stage, spec = self._stage, self._spec
-        sinusoid = spec.current(value).bind(SceneContext(stream=stage.world.stream))
-        offset = spec.time_offset
-        current = DelayedCurrent(sinusoid, start=stage.time, delay=delay, offset=offset)
+        world, start = stage.world, stage.time
+        current = spec.flow(value, world.stream, world.compatibility, start=start, delay=delay)
         if not spec.publish_as_force:
-            has_target = "current-target" in stage.world.compatibility
-            stage.set_current(TargetCurrent(current, spec.target) if has_target else current)
+            stage.set_current(current)
         elif self._force is None:
             self._force = ForcePublisher(stage, current)
         else:

@@ -1,6 +1,6 @@
 """Rows of free vehicles on a GPU of NVIDIA: the functions of `loops`, compiled by numba-cuda.
 
-This driver has not been run on a GPU yet. A test compiles its kernel to PTX, the assembly language
+This driver has not been run on a GPU yet. A test compiles its step to PTX, the assembly language
 of these GPUs. The compiler may contract products and sums, and has its own sine and cosine: results
 are expected to agree with those of the CPU to about 1e-12 in a step, not to the bit.
 
@@ -44,7 +44,7 @@ def kernel_function(cuda: Any) -> Callable[..., None]:
             commands = cuda.local.array(MAX_ACTUATORS, np.float64)
             vehicle = vehicle_of_row(vehicles, row if is_varied else 0)
             n = task.mixing.shape[0]
-            step_row(row, vehicle, task, rows, actions[row], commands[:n], work, scratch)
+            step_row(row, vehicle, task, rows, actions[row], commands[:n], work, scratch, None)
 
     return step_on_gpu
 
@@ -56,7 +56,8 @@ class GpuRows:
         rows: the batch, which resets on the CPU.
 
     Raises:
-        BadSetting: numba-cuda or a GPU is missing, or the vehicle has too many actuators.
+        BadSetting: numba-cuda or a GPU is missing, the vehicle has too many actuators, or the water
+            of the rows moves.
     """
 
     def __init__(self, rows: Rows) -> None:
@@ -69,6 +70,8 @@ class GpuRows:
         n_actuators = len(rows.numbers.mixing)
         if n_actuators > MAX_ACTUATORS:
             raise BadSetting(f"The vehicle has {n_actuators} actuators; at most {MAX_ACTUATORS}.")
+        if rows.flows is not None:
+            raise BadSetting("The water of a row moves; expected water that does not on a GPU.")
         self._rows, self._cuda = rows, cuda
         self._kernel: Any = cuda.jit(kernel_function(cuda))
         self._task = self._copy(rows.numbers)

@@ -26,6 +26,7 @@ from . import columns as c
 from .arrays import Flags, RowArrays, TaskNumbers
 from .channels import Situation, observe
 from .errors import distance
+from .flows import FUNCTION, RowFlows, move_water
 from .rewards import reward_of
 from .trajectories import fill_goal
 from .variation import vary_vehicle, vehicle_of_row
@@ -100,6 +101,8 @@ def _place_row(task: TaskNumbers, rows: RowArrays, row: int, scratch: Floats) ->
     state[5], state[6] = n * goal[k + 2] + m * goal[k + 1], n * goal[k + 3] + m * goal[k]
     speed, heading = parameters[c.CURRENT_SPEED], parameters[c.CURRENT_HEADING]
     for i in range(rows.water.shape[1]):
+        for j in range(rows.water.shape[2]):
+            rows.water[row, i, j] = 0.0
         rows.water[row, i, 0] = speed * math.cos(heading)
         rows.water[row, i, 1] = speed * math.sin(heading)
     for i in range(rows.rotors.shape[1]):
@@ -125,6 +128,7 @@ def step_rows(
     task: TaskNumbers,
     rows: RowArrays,
     actions: Floats,
+    flows: RowFlows | None,
 ) -> None:
     """Take a step of the environment with some rows.
 
@@ -137,6 +141,7 @@ def step_rows(
         task: the numbers of the task.
         rows: the arrays of the rows.
         actions: the actions from -1 to 1, (n, a).
+        flows: the water that moves at the rows; None: the water remains as it is.
     """
     work, scratch = np.empty(WORK), np.empty(SCRATCH)
     commands = np.empty(len(task.mixing))
@@ -144,7 +149,7 @@ def step_rows(
         if not mask[row]:
             continue
         vehicle = vehicle_of_row(vehicles, row if is_varied else 0)
-        step_row(row, vehicle, task, rows, actions[row], commands, work, scratch)
+        step_row(row, vehicle, task, rows, actions[row], commands, work, scratch, flows)
 
 
 @njit_borrowed
@@ -157,6 +162,7 @@ def step_row(
     commands: Floats,
     work: Floats,
     scratch: Floats,
+    flows: RowFlows | None,
 ) -> None:
     """Take a step of the environment with one row.
 
@@ -169,11 +175,15 @@ def step_row(
         commands: scratch memory for the commands, (k,).
         work: scratch memory, (`free_step.WORK`,).
         scratch: scratch memory, (`SCRATCH`,).
+        flows: the water that moves at the rows; None: the water remains as it is.
     """
     effort, change = _take_action(task, rows, row, action, commands)
     state, rotors, water = rows.states[row], rows.rotors[row], rows.water[row]
-    for _ in range(task.substeps):
-        step_one(vehicle, rotors, state, commands, water, task.timestep, work)
+    h, n = task.timestep, rows.steps[row] * task.substeps
+    for i in range(task.substeps):
+        if flows is not None and flows.functions[row, FUNCTION] != 0:
+            move_water(flows, row, vehicle, state, water, (n + i + 1) * h - 0.5 * h, work)
+        step_one(vehicle, rotors, state, commands, water, h, work)
     rows.steps[row] += 1
     _observe_row(task, rows, row, scratch)
     _score_row(task, rows, row, effort, change, scratch[9 : 9 + c.GOAL_COLUMNS])

@@ -15,9 +15,11 @@ from ...base.numerics.memory import Floats
 from ...base.rng import stream
 from ...errors import BadSetting
 from ...physics.hydrodynamics.kernel.free_step import FreeVehicle
+from ...physics.hydrodynamics.water_function import WaterFunction
 from . import columns as c
 from .arrays import Flags, make_arrays, stack_vehicles
 from .channels import Singles
+from .flows import RowFlows, make_flows, set_flow
 from .loops import reset_rows, step_rows
 from .task import RowTask, parameter_index
 
@@ -70,6 +72,9 @@ class Rows:
         ranges = self.numbers.ranges[_FACTORS]
         self.is_varied = bool((ranges != 1.0).any())
         self.vehicles = stack_vehicles(vehicle, n if self.is_varied else 1)
+        self.flows: RowFlows | None = None
+        """The functions of the water of the rows; None: no water moves in an episode."""
+        self._water_functions: list[WaterFunction | None] = [None] * n
         self._generators: list[np.random.Generator | None] = [None] * n
         self._all_rows = np.ones(n, np.bool_)
         self._no_levels = np.full((n, len(c.PARAMETERS)), np.nan)
@@ -140,7 +145,7 @@ class Rows:
         seeds: Sequence[int | None] | None = None,
         levels: Mapping[str, float | npt.ArrayLike] | None = None,
     ) -> Singles:
-        """Begin new episodes.
+        """Begin new episodes, in water with the drawn current until `set_water`.
 
         Args:
             mask: true for the rows to reset, (n,); None: all.
@@ -168,6 +173,8 @@ class Rows:
                     stack_vehicles(self._nominal_vehicle, self.n),
                     True,
                 )
+        if self.flows is not None:
+            self.flows.functions[row_mask] = 0
         numbers, rows = self.numbers, self.arrays
         self._share(
             lambda first, end: reset_rows(
@@ -184,6 +191,23 @@ class Rows:
         )
         return rows.observations
 
+    def set_water(self, row: int, function: WaterFunction | None) -> None:
+        """Set the motion of the water of a row for the episode that has begun.
+
+        It replaces the drawn current. The function has to be of this row alone, and ready for the
+        whole episode; its time is 0 when the episode begins.
+
+        Args:
+            row: the index of the row, which has been reset.
+            function: the function of the water at `flows.n_bodies` bodies; None: still water.
+        """
+        self.arrays.water[row] = 0.0
+        if function is not None and self.flows is None:
+            self.flows = make_flows(self._nominal_vehicle, self.n)
+        if self.flows is not None:
+            self._water_functions[row] = function  # which keeps its memory
+            set_flow(self.flows, row, function)
+
     def step(self, actions: npt.ArrayLike, mask: Flags | None = None) -> Singles:
         """Take a step of the environment.
 
@@ -199,8 +223,9 @@ class Rows:
         numbers, rows = self.numbers, self.arrays
         if self._pool is None:
             step_rows(
-                0, self.n, row_mask, self.vehicles, self.is_varied, numbers, rows, self._actions
-            )
+                0, self.n, row_mask, self.vehicles, self.is_varied, numbers, rows, self._actions,
+                self.flows,
+            )  # fmt: skip
         else:
             self._share(
                 lambda first, end: step_rows(
@@ -212,6 +237,7 @@ class Rows:
                     numbers,
                     rows,
                     self._actions,
+                    self.flows,
                 )
             )
         return rows.observations

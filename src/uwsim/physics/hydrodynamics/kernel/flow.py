@@ -131,17 +131,14 @@ def submerged_share(surface: float, height: float, radius: float) -> float:
 
 @njit
 def submerged_middle(m: int, d: int, o: Ints64, body: int, height: float) -> float:
-    """Return the height in the world of the centre of a body's submerged part [m].
-
-    The surface is that of the last step.
+    """Return `submerged_height` of a body in MuJoCo's memory [m].
 
     Args:
         m: the address of the model.
         d: the address of the data.
         o: the offsets of the fields.
         body: the id of the body.
-        height: the height of the point at which the water acts on the whole body [m], which is
-            returned unless the body pierces the surface.
+        height: the height of the point at which the water acts on the whole body [m].
     """
     tables = read_int64(m + o[f.BODY_USER])
     table = view_doubles(tables + 8 * c.BODY_COLUMNS * body, c.BODY_COLUMNS)
@@ -149,14 +146,41 @@ def submerged_middle(m: int, d: int, o: Ints64, body: int, height: float) -> flo
         read_int64(d + o[f.USERDATA]) + 8 * c.WATER_COLUMNS * body, c.WATER_COLUMNS
     )
     surface = read_double(tables + 8 * c.SURFACE)
+    axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
+    origin = read_double(read_int64(d + o[f.XPOS]) + 8 * (3 * body + 2))
+    return submerged_height(table, water, axes, origin, surface, height, np.empty(MEMORY))
+
+
+@njit_borrowed
+def submerged_height(
+    table: Floats,
+    water: Floats,
+    axes: Floats,
+    origin: float,
+    surface: float,
+    height: float,
+    memory: Floats,
+) -> float:
+    """Return the height in the world of the centre of a body's submerged part [m].
+
+    The surface is that of the last step.
+
+    Args:
+        table: the row of the body (`columns`).
+        water: the row of the water at the body (`columns`).
+        axes: the rotation ``world_from_body`` by rows, (9,).
+        origin: the height of the body's origin in W [m].
+        surface: the height of the still water in W [m].
+        height: the height of the point at which the water acts on the whole body [m], which is
+            returned unless the body pierces the surface.
+        memory: scratch memory, (`submersion.MEMORY`,).
+    """
     if surface + water[c.ELEVATION] - height >= 2.0 * table[c.REACH]:
         return height
-    axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
     x, y, z = table[c.REFERENCE], table[c.REFERENCE + 1], table[c.REFERENCE + 2]
-    origin = read_double(read_int64(d + o[f.XPOS]) + 8 * (3 * body + 2))
     reference = origin + axes[6] * x + axes[7] * y + axes[8] * z
     up, depth = surface_plane(table, axes, reference, surface, water)
-    fraction, centre = submerged_part(table, up, depth, np.empty(MEMORY))
+    fraction, centre = submerged_part(table, up, depth, memory)
     if table[c.KIND] == c.DRY_BODY or fraction <= 0.0:
         return height
     middle: float = reference + axes[6] * centre[0] + axes[7] * centre[1] + axes[8] * centre[2]
