@@ -95,6 +95,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "datasets": (TASKS | ENGINES | {"runs", "analysis", "middleware", "viewer", "datasets"}),
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
+    "campaigns": TASKS | {"runs", "verify", "campaigns"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
     "__main__": {"cli", "base"},
     "cli": (
@@ -107,6 +108,7 @@ MAY_IMPORT: dict[str, set[str]] = {
             "calibration",
             "envelope",
             "verify",
+            "campaigns",
             "middleware",
             "logs",
             "reality_gap",

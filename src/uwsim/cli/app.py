@@ -151,6 +151,15 @@ COMMANDS: dict[str, Command] = {
             "uwsim manoeuvres my-scene.xml --vehicle my_rov -o my-rov-manoeuvres",
         ),
     ),
+    "merge": Command(
+        module="campaigns.merge",
+        function="merge",
+        summary="Write the result of a benchmark that ran in shards.",
+        examples=(
+            "uwsim merge both.result",
+            "uwsim merge both.result --no-report --workers 2",
+        ),
+    ),
     "play": Command(
         module="play",
         function="play",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
@@ -41,6 +42,7 @@ from .output.console import standard_output
 from .output.progress import progress
 
 if TYPE_CHECKING:
+    from ..campaigns.shard import Shard
     from ..results.result import Result
     from ..runs.execute import Callbacks
     from ..runs.executors.executor import OnLevel
@@ -98,6 +100,16 @@ class BenchOptions:
         Path | None,
         option(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
     ] = None
+    shard: Annotated[
+        str | None,
+        option(
+            RUN,
+            "--shard",
+            metavar="I/N",
+            help="Run part I of N of the trials, from 1/N on, into an --out that all parts share; "
+            "`uwsim merge` then writes the result. A part that is run again continues.",
+        ),
+    ] = None
     resume: Annotated[bool, option(OUTPUT, "--resume", help="Resume the run in --out.")] = False
     overwrite: Annotated[
         bool,
@@ -113,6 +125,22 @@ class BenchOptions:
     def directory(self) -> Path:
         """The directory of the result."""
         return self.out or Path(f"{Path(self.task.benchmark).stem}.result")
+
+    def read_shard(self) -> Shard | None:
+        """Return the shard to run; None to run all trials.
+
+        Raises:
+            BadSetting: the text is no shard, or another option excludes it.
+        """
+        from ..campaigns.shard import read_shard
+
+        if self.shard is None:
+            return None
+        if self.resume or self.overwrite:
+            raise BadSetting(
+                "--shard continues what is in --out; leave out --resume and --overwrite."
+            )
+        return read_shard(self.shard)
 
     def requests(
         self, levels: Sequence[tuple[str, float]], errors: ErrorCollector
@@ -141,6 +169,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     same bytes.
     --resume continues an interrupted run; trials that are run again are recorded anew.
     """
+    from ..campaigns.shard import check_shared_directory, execute_shard
     from ..results.directory import check, prepare_directory
     from ..runs.execute import execute, plan_all, prepare_execution
     from ..runs.executors.background import BackgroundProcess
@@ -167,8 +196,14 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
         check_live(options, plans)
     with errors.collect():
         folders = result_folders(options.algorithm or ())
+    shard: Shard | None = None
     with errors.collect():
-        check(options.directory, **modes, results=folders)
+        shard = options.read_shard()
+    with errors.collect():
+        if shard is None:
+            check(options.directory, **modes, results=folders)
+        else:
+            check_shared_directory(options.directory, folders)
     recordings: list[TrialRecording] = []
     with errors.collect():
         if len(plans) == len(options.algorithm or (None,)):
@@ -196,12 +231,24 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
 
             limit = options.processes.callback_limit or None
             execution = replace(execution, executor=SerialExecutor(observer, callback_limit=limit))
+        output = RunOutput(execution.runs, options.processes.n_parallel)
+        if shard is not None:
+            runs = execute_shard(execution, shard, folders, output.progress)
+            print_shard(shard, runs, options.directory)
+            return
         execute(
             execution,
             prepare_directory(options.directory, **modes, results=folders),
             partial(BackgroundProcess, load_reporter),
-            RunOutput(execution.runs, options.processes.n_parallel).callbacks(),
+            output.callbacks(),
         )
+
+
+def print_shard(shard: Shard, runs: Sequence[Run], out: Path) -> None:
+    """Print how many trials of a shard are finished, and the command that merges all shards."""
+    n = sum(len(run.trials()) for run in runs)
+    print(f"shard {shard}: its {n} trials are finished in {out}")
+    print(f"when all shards are finished: {shlex.join(['uwsim', 'merge', str(out)])}")
 
 
 def plan_recordings(
@@ -297,13 +344,15 @@ class RunOutput:
         from ..runs.execute import Callbacks
 
         return Callbacks(
-            progress=self._progress, on_rows=self._print_table, on_report=self._print_written
+            progress=self.progress, on_rows=self.print_table, on_report=self.print_written
         )
 
-    def _progress(self, title: str, total: int, n_done: int) -> AbstractContextManager[OnLevel]:
+    def progress(self, title: str, total: int, n_done: int) -> AbstractContextManager[OnLevel]:
+        """Display the number of finished levels."""
         return progress(title, total, n_done=n_done, unit="levels", n_parallel=self._n_parallel)
 
-    def _print_table(self, run: Run, result: Result) -> None:
+    def print_table(self, run: Run, result: Result) -> None:
+        """Print the table of a result."""
         from ..results.table import table
 
         if len(self._runs) > 1:
@@ -311,7 +360,7 @@ class RunOutput:
         console = standard_output()
         console.print(table(result, width=console.width))
 
-    def _print_written(self, run: Run, result: Result) -> None:
+    def print_written(self, run: Run, result: Result, *, has_report: bool = True) -> None:
         """Print the remarks and notes about a run as warnings, and the path of its result."""
         from ..results.directory import REPORT
         from ..results.refused_lines import refused_lines
@@ -322,8 +371,8 @@ class RunOutput:
         for note in result.run.notes or ():
             if note.partition(": ")[2] not in status_texts:
                 warn(note)
-        report = run.out / REPORT
-        print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
+        files = f"logs, plots; report: {run.out / REPORT}" if has_report else "logs"
+        print(f"written: {run.out}/result.json, result.dat, {files}")
         self._n_written += 1
         if self._n_written == len(self._runs) > 1:
             print("compare: uwsim compare " + " ".join(str(run.out) for run in self._runs))

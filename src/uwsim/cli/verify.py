@@ -24,8 +24,9 @@ from ..verify.recorded_plan import (
     recorded_input,
 )
 from .exit_status import RUN_FAILED
-from .options.help_texts import FILES, RUN, option
-from .options.options import CodeOptions, ResultArgument, WorkerOptions
+from .options.help_texts import RUN, option
+from .options.options import ResultArgument, WorkerOptions
+from .options.recorded_files import FileOptions
 from .output.progress import progress
 
 if TYPE_CHECKING:
@@ -93,38 +94,6 @@ class SampleOptions:
             command = same_sample_command(words, seed)
             typer.echo(f"sample: {sample_text}, at random; the same again: {command}")
         return len(finished_trials), trials
-
-
-@dataclass(frozen=True, kw_only=True)
-class FileOptions:
-    """The options that locate the files of a result."""
-
-    benchmark: Annotated[
-        Path | None,
-        option(
-            FILES,
-            "--benchmark",
-            metavar="FILE.xml",
-            help="The benchmark, if it is not found by its name.",
-        ),
-    ] = None
-    scene: Annotated[
-        Path | None,
-        option(
-            FILES, "--scene", metavar="FILE.xml", help="The scene, if it is not found by its name."
-        ),
-    ] = None
-    code: CodeOptions
-
-    def overrides(self) -> FileOverrides:
-        """Return the locations that replace those recorded in the result."""
-        return FileOverrides(
-            benchmark=self.benchmark,
-            scene=self.scene,
-            plugins=tuple(self.code.plugin or ()),
-            data_path=self.code.folders,
-            no_code=self.code.no_code,
-        )
 
 
 def same_sample_command(command_line: Sequence[str], seed: int) -> str:

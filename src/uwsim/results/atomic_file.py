@@ -29,13 +29,18 @@ def atomic_write(path: Path) -> Iterator[Path]:
     Two processes may write the same file at the same time: each writes its own draft, and the draft
     that is finished last remains.
     """
-    draft = path.with_name(f".{path.name}.{os.getpid()}.part")
+    draft = draft_of(path)
     try:
         with name_file_in_errors(path, draft):
             yield draft
             draft.replace(path)
     finally:
         draft.unlink(missing_ok=True)
+
+
+def draft_of(path: Path) -> Path:
+    """Return the path of this process's draft of a file."""
+    return path.with_name(f".{path.name}.{os.getpid()}.part")
 
 
 def name_of_draft(name: str) -> str | None:

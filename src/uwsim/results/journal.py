@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ReplayDiffers, ResultError, name_file_in_errors
+from .atomic_file import draft_of
 from .code_paths import code_differences
 from .inputs import Inputs, input_differences
 from .provenance import codes_of, load_provenance
@@ -189,7 +190,7 @@ def truncate(directory: Path, index: int, n_rows: int) -> None:
     """Truncate a journal to its first ``n_rows`` rows."""
     path = path_of(directory, index)
     lines = path.read_bytes().split(b"\n")[: 1 + n_rows]
-    draft = path.with_suffix(".part")
+    draft = draft_of(path)
     draft.write_bytes(b"".join(line + b"\n" for line in lines))
     draft.replace(path)
 
@@ -212,7 +213,7 @@ class Journal:
         self._path.parent.mkdir(parents=True, exist_ok=True)
         self._content = read(directory, index, head, seal)
         self._n_rows, self._is_finished = 0, False
-        self._stream = self._path.with_suffix(".part").open("w", encoding="utf-8", newline="\n")
+        self._stream = draft_of(self._path).open("w", encoding="utf-8", newline="\n")
         self._write({"unit": head})
         for row in self._content.rows:
             self._write({"row": row.record()})
@@ -267,7 +268,7 @@ class Journal:
         return "do the versions differ, or does the algorithm draw random numbers of its own?"
 
     def _replace_file(self) -> None:
-        self._path.with_suffix(".part").replace(self._path)
+        draft_of(self._path).replace(self._path)
 
 
 def _other_run(*heads: Record) -> str:

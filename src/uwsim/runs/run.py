@@ -51,6 +51,8 @@ class Run:
     """Files that must not change during the run (`unique_files`)."""
     recorder: TrialRecorder | None = None
     """The recorder of the messages of its trials; None if they are not recorded."""
+    chosen_trials: frozenset[int] | None = None
+    """The indices of the trials that this process runs, those of a shard; None for all."""
     seal: Seal | None = field(default=None, repr=False)
     """The encryption that prevents a foreign algorithm from reading the rows during the run."""
     n_resumed: int = 0
@@ -64,6 +66,15 @@ class Run:
     def info(self) -> RunInfo:
         """The description of the run, as far as it is known before its execution."""
         return describe_plan(self.plan, self.renderer)
+
+    def trials(self) -> list[Trial]:
+        """Return the trials that this process runs."""
+        trials = self.plan.trials()
+        return [
+            trial
+            for trial in trials
+            if self.chosen_trials is None or trial.index in self.chosen_trials
+        ]
 
     def begin(self) -> list[Trial]:
         """Create the result directory, and return the trials to run."""
@@ -82,7 +93,7 @@ class Run:
         truncated where a call into its algorithm did not return; in a finished trial that is final.
         """
         name = self.plan.algorithm.name
-        for trial in self.plan.trials():
+        for trial in self.trials():
             content = self.read_trial(trial)
             is_truncated = ended_its_process if content.end is not None else was_stopped
             for n, row in enumerate(content.rows):
@@ -99,7 +110,7 @@ class Run:
         plan = self.plan
         is_piloted = getattr(plan.algorithm.cls, "IS_PILOTED", False) and not plan.inputs
         is_free = plan.algorithm.client is not None and plan.algorithm.client.sync == "none"
-        for trial in plan.trials():
+        for trial in self.trials():
             content = self.read_trial(trial)
             if content.end is None or _has_motion(self.out, trial):
                 continue
@@ -121,11 +132,11 @@ class Run:
 
     def unfinished_trials(self) -> list[Trial]:
         """Return the trials whose end is not on disk."""
-        return [trial for trial in self.plan.trials() if self.read_trial(trial).end is None]
+        return [trial for trial in self.trials() if self.read_trial(trial).end is None]
 
     def n_finished(self) -> int:
-        """Count the levels that are on disk."""
-        return sum(self.n_rows(trial) for trial in self.plan.trials())
+        """Count the levels of `trials` that are on disk."""
+        return sum(self.n_rows(trial) for trial in self.trials())
 
     def n_rows(self, trial: Trial) -> int:
         """Count the levels of one trial that are on disk."""
@@ -141,9 +152,14 @@ class Run:
         }
 
     def write(self) -> Result:
-        """Collect the rows on disk and write result, summary of repeats and logs."""
-        stored_trials = [(trial, self.read_trial(trial)) for trial in self.plan.trials()]
+        """Collect the rows on disk and write result, summary of repeats and logs.
+
+        The rows of a shard are collected only: ``uwsim merge`` writes those of all shards.
+        """
+        stored_trials = [(trial, self.read_trial(trial)) for trial in self.trials()]
         result, logs, self.simulated_s = collect(self.plan, self.inputs, self.info, stored_trials)
+        if self.chosen_trials is not None:
+            return result
         save(result, self.out)
         save_dat(
             result,

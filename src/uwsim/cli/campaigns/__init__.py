@@ -1,0 +1,1 @@
+"""Commands for campaigns: benchmarks that run in shards on many machines."""
