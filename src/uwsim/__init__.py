@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .base.geometry import Pose
     from .bus import Algorithm, Node
     from .editing import Benchmark, Scene, read_benchmark, read_scene
-    from .envs.make import make_env
+    from .envs.make import make_env, make_parallel_env
     from .errors import UwsimError
     from .rendering.rendered_image import PixelBox, RenderedImage
     from .results.result import Result
@@ -53,6 +53,7 @@ __all__ = [
     "gap",
     "load",
     "make_env",
+    "make_parallel_env",
     "messages",
     "read_benchmark",
     "read_result",
@@ -79,6 +80,7 @@ _MODULES = {
     "gap": "api",
     "load": "api",
     "make_env": "envs.make",
+    "make_parallel_env": "envs.make",
     "read_benchmark": "editing",
     "read_result": "api",
     "read_scene": "editing",

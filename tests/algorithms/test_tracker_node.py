@@ -15,6 +15,7 @@ BLIND = (
     "autopilot-path",
     "autopilot-station",
     "docking",
+    "formation-pi",
     "pilot",
     "position-lqr",
     "position-p",

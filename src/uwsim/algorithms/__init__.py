@@ -13,6 +13,7 @@ from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean, type_and_text
 from .autopilot_missions import AutopilotPath, AutopilotStation
 from .control import PI, Feedforward, P
+from .control.formation import FormationPI
 from .direct import Esm, InverseCompositional, SsdEsm
 from .docking import Docking
 from .ecc import Ecc
@@ -35,6 +36,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "ecc": Ecc,
     "esm": Esm,
     "feedforward": Feedforward,
+    "formation-pi": FormationPI,
     "frozen": FrozenTracker,
     "grasp": Grasp,
     "grasp-blind-close": GraspBlindClose,

@@ -11,10 +11,14 @@ from ``action``. A class whose objects are functions of an observation is thus a
 
 The parts of an observation are the dimensions of the message, whose labels are their names. A class
 with an attribute ``layout`` receives them there: a dictionary of slices by name.
+
+If several vehicles have policies, each has an object of the class, and topics of its own,
+``VEHICLE/observation`` and ``VEHICLE/action``. An attribute ``agent`` receives the vehicle's name.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, Protocol, cast
 
@@ -27,6 +31,8 @@ from ..messages import Empty, Float64MultiArray, MultiArrayLayout
 
 OBSERVATION, ACTION, START_SERVICE = "observation", "action", "startBench"
 """The topics of a policy, and the service that starts some benchmarks."""
+AGENTS = "agents"
+"""The parameter with the names of the vehicles that have policies, if there are several."""
 
 
 class Policy(Protocol):
@@ -40,21 +46,35 @@ class PolicyNode:
     """An algorithm that applies a policy to each observation.
 
     Args:
-        policy: the policy.
+        make_policy: the function that makes the policy of a vehicle.
     """
 
-    def __init__(self, policy: Policy) -> None:
-        self._policy = policy
-        self._layout: dict[str, slice] = {}
+    def __init__(self, make_policy: Callable[[], Policy]) -> None:
+        self._make_policy = make_policy
+        self._first_policy = make_policy()  # an error of it is one of the algorithm's constructor
 
     def start(self, node: Node) -> None:
-        """Subscribe to the observations, and start the benchmark."""
-        self._publish = node.publisher(ACTION, Float64MultiArray)
-        node.subscribe(OBSERVATION, Float64MultiArray, self._on_observation)
+        """Subscribe to the observations of each vehicle, and start the benchmark."""
+        agents = str(node.parameters.get(AGENTS, "")).split()
+        for i, agent in enumerate(agents or [""]):
+            policy = self._first_policy if i == 0 else self._make_policy()
+            if agent and hasattr(policy, "agent"):
+                policy.agent = agent
+            prefix = f"{agent}/" if agent else ""
+            loop = _PolicyLoop(policy, node.publisher(prefix + ACTION, Float64MultiArray))
+            node.subscribe(prefix + OBSERVATION, Float64MultiArray, loop.on_observation)
         with suppress(UnknownName):
             node.call(START_SERVICE, Empty())
 
-    def _on_observation(self, message: Float64MultiArray) -> None:
+
+class _PolicyLoop:
+    """The policy of one vehicle."""
+
+    def __init__(self, policy: Policy, publish: Callable[[Float64MultiArray], None]) -> None:
+        self._policy, self._publish = policy, publish
+        self._layout: dict[str, slice] = {}
+
+    def on_observation(self, message: Float64MultiArray) -> None:
         if not self._layout:
             self._layout = slices_of(message)
             if hasattr(self._policy, "layout"):
@@ -85,4 +105,4 @@ def is_policy(value: object) -> bool:
 
 def make_algorithm_of(cls: type[Any]) -> Algorithm:
     """Make the algorithm of a class: an object of it, or a node for the policy that it makes."""
-    return PolicyNode(cls()) if is_policy(cls) else cast("Algorithm", cls())
+    return PolicyNode(cls) if is_policy(cls) else cast("Algorithm", cls())

@@ -181,13 +181,21 @@ class _Reader:
     def check_environment(
         self, root: etree._Element, spec: BenchmarkSpec | None, measures: list[MeasureSpec]
     ) -> None:
-        """Report the errors of ``<u:environment>`` at the lines of its children."""
-        node = root.find(f"{{{NAMESPACE}}}environment")
-        if node is None or spec is None or spec.environment is None:
-            return
-        for tag, message in spec.environment.errors(measures):
-            child = node.find(tag)
-            self.diagnostics.error(node if child is None else child, message)
+        """Report the errors of each ``<u:environment>`` at the lines of its children."""
+        nodes = root.findall(f"{{{NAMESPACE}}}environment")
+        environments = () if spec is None else spec.environments
+        for i, (node, environment) in enumerate(zip(nodes, environments, strict=False)):
+            errors = [*environment.errors(measures)]
+            if environment.vehicle in [other.vehicle for other in environments[:i]]:
+                errors.append(
+                    (
+                        "vehicle",
+                        f"the vehicle {environment.vehicle[:60]!r} has an <u:environment> already",
+                    )
+                )
+            for tag, message in errors:
+                child = node.find(tag)
+                self.diagnostics.error(node if child is None else child, message)
 
     def read_measures(self, parent: etree._Element) -> list[MeasureSpec]:
         """Read the children of ``<measures>``, in the file's order."""

@@ -72,11 +72,16 @@ class BenchmarkSpec(Spec):
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
     """The values of scene updaters that are drawn at random for each seed. ``u:path`` begins with
     the name of the updater, as in ``currentForceUpdater.timeOffset``."""
-    environment: EnvironmentSpec | None = element(namespaced=True, default=None)
-    """The observations, actions and reward of a policy; None: the benchmark is no learning
-    environment."""
+    environments: tuple[EnvironmentSpec, ...] = element("environment", namespaced=True, default=())
+    """The observations, actions and reward of a policy, one for each vehicle that has a policy;
+    empty: the benchmark is no learning environment."""
     path: str = field(default="", compare=False, metadata={"path": True})
     """The path of the file as given by the user."""
+
+    @property
+    def environment(self) -> EnvironmentSpec | None:
+        """The environment of the first vehicle that has a policy; None if there is none."""
+        return self.environments[0] if self.environments else None
 
     @property
     def parts(self) -> tuple[MeasureSpec | TriggerSpec | SceneUpdaterSpec, ...]:

@@ -8,7 +8,7 @@ from ..errors import Diagnostic, UnknownName, UwsimError
 from ..schema import Diagnostics, Spec, fields_of, line_of
 from ..world import Stage
 from .bind_part import Part, bind_part
-from .environment import Actuator, Observer
+from .environment import Actuator, EnvironmentSpec, Observer
 from .spec import BenchmarkSpec
 from .updaters import chain
 
@@ -80,10 +80,14 @@ def _reference_errors(spec: object, stage: Stage) -> Iterator[tuple[int | None, 
 
 
 def _environment_errors(benchmark: BenchmarkSpec, stage: Stage) -> Iterator[tuple[int | None, str]]:
-    """Yield the unknown names in ``<u:environment>``, or else the error of binding it."""
-    spec = benchmark.environment
-    if spec is None:
-        return
+    """Yield the unknown names in each ``<u:environment>``, or else the error of binding it."""
+    for spec in benchmark.environments:
+        yield from _errors_of_environment(spec, benchmark, stage)
+
+
+def _errors_of_environment(
+    spec: EnvironmentSpec, benchmark: BenchmarkSpec, stage: Stage
+) -> Iterator[tuple[int | None, str]]:
     reference_errors = [*_reference_errors(spec, stage)]
     yield from reference_errors
     if reference_errors:

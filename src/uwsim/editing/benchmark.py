@@ -15,6 +15,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..benchmark.environment import EnvironmentSpec
 from ..benchmark.plugin import Plugin
 from ..benchmark.plugin_tables import Tables
 from ..benchmark.reader import read_benchmark as read_benchmark_file
@@ -23,8 +24,9 @@ from ..benchmark.triggers import NeverSpec, OnInitSpec
 from ..benchmark.updaters import NoneSpec
 from ..benchmark.writer import write_benchmark
 from ..checks.benchmark_tables import read_plugins
-from ..errors import BenchmarkError, Diagnostic
+from ..errors import BadSetting, BenchmarkError, Diagnostic
 from .document import Document, check_equal
+from .element import Element, ElementList
 from .file_names import move_file_names
 from .scene import Scene
 from .text_diagnostics import locate_diagnostics
@@ -68,6 +70,18 @@ class Benchmark(Document[BenchmarkSpec]):
         tables = None if plugins is None else plugins[1]
         super().__init__(EMPTY_BENCHMARK if spec is None else spec, tables=tables)
         self._plugins = plugins
+
+    @property
+    def environment(self) -> Element[EnvironmentSpec]:
+        """The first ``<u:environment>``, that of a benchmark in which one vehicle has a policy.
+
+        Raises:
+            BadSetting: the benchmark has none.
+        """
+        environments: ElementList[EnvironmentSpec] = self.environments
+        if not len(environments):
+            raise BadSetting("The benchmark has no <u:environment>.")
+        return environments[0]
 
     def rename(self, path: str, new_name: str) -> None:
         """Rename a measure, also in the score, the reward and the criterion of success."""

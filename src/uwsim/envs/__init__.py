@@ -8,17 +8,18 @@
     observation, info = env.reset(seed=1)
     observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
 
-`make_env` makes the environment of any benchmark file. `batch` steps rows of free vehicles in
-compiled code. Gymnasium is the extra ``envs``: ``pip install 'uwsim[envs]'``.
+`make_env` makes the environment of any benchmark file, and `make_parallel_env` that of several
+vehicles, with PettingZoo. `batch` steps rows of free vehicles in
+compiled code. Gymnasium and PettingZoo are the extra ``envs``: ``pip install 'uwsim[envs]'``.
 """
 
 from __future__ import annotations
 
 import importlib.util
 
-from .make import make_env
+from .make import make_env, make_parallel_env
 
-__all__ = ["make_env"]
+__all__ = ["make_env", "make_parallel_env"]
 
 if importlib.util.find_spec("gymnasium") is not None:
     from .benchmark_env import BenchmarkEnv

@@ -14,12 +14,11 @@ from gymnasium.spaces import Box
 from ..base.geometry import Array
 from ..benchmark.environment.observer import MAX_OBSERVATION
 from ..editing import Benchmark, Scene
-from ..errors import BadSetting, UnknownName
+from ..errors import BadSetting
 from ..runs.planning.trial_cache import TrialCache
-from ..sensors.virtual_camera import VirtualCameraSpec
 from .episode import Episode, environment_of
 from .levels import draw_level, read_choices
-from .task import EnvironmentOptions, make_task
+from .task import EnvironmentOptions, find_camera, make_task
 
 MAX_SEED = 2**31 - 1
 """The greatest seed that an environment draws for an episode without a seed."""
@@ -94,12 +93,12 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         self._seed = 0
         self._episode: Episode | None = self._begin(0, {})
         self._is_over = True
-        self.layout = self._episode.layout
+        [self.layout] = self._episode.layouts
         """The name and the size of each part of the observation, in order."""
         size = sum(n for _, n in self.layout)
         self.observation_space = Box(-MAX_OBSERVATION, MAX_OBSERVATION, (size,), np.float64)
-        self.action_space = Box(-1.0, 1.0, (self._episode.n_actions,), np.float32)
-        self._camera = self._camera_name(camera)
+        self.action_space = Box(-1.0, 1.0, (self._episode.n_actions[0],), np.float32)
+        self._camera = find_camera(self._plan, camera)
 
     @property
     def stepper(self) -> str:
@@ -127,7 +126,8 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
             self._episode.close()
         self._episode = self._begin(episode_seed, choices)
         self._is_over = False
-        return self._episode.observe(), self._info()
+        [observation] = self._episode.observe()
+        return observation, self._info()
 
     def step(self, action: Action) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         """Apply an action for one period, or until the episode ends."""
@@ -140,8 +140,8 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
                 f"The action has the shape {values.shape}; expected {self.action_space.shape}, "
                 "finite numbers from -1 to 1."
             )
-        reward = episode.step(values)
-        observation = episode.observe()
+        [reward] = episode.step([values])
+        [observation] = episode.observe()
         self._is_over = episode.row is not None
         is_truncated = episode.is_truncated
         is_terminated = self._is_over and not is_truncated
@@ -151,11 +151,7 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         """Return the image of the camera, (h, w, 3); None without a render mode."""
         if self.render_mode is None or self._episode is None:
             return None
-        if self._camera is None:
-            raise BadSetting("The scene has no <virtualCamera>; expected one to render.")
-        colour = self._episode.simulation.image(self._camera).colour
-        assert colour is not None
-        return np.array(colour, dtype=np.uint8)
+        return self._episode.image(self._camera)
 
     def close(self) -> None:
         """Close the scene and its renderer."""
@@ -171,36 +167,9 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
 
     def _info(self) -> dict[str, Any]:
         """Return the seed and the level and, at the end, the result of the benchmark."""
-        info: dict[str, Any] = {
+        return {
             "seed": self._seed,
             "level": dict(self._level.values),
             "variations": {draw.path: draw.value for draw in self._plan.draws(self._seed)},
+            **({} if self._episode is None else self._episode.result()),
         }
-        row = None if self._episode is None else self._episode.row
-        if row is not None and self._episode is not None:
-            is_success = self._episode.is_success
-            info |= {
-                "measures": {name: _number(value) for name, (value, _) in row.measures.items()},
-                "score": _number(row.total),
-                "status": row.status,
-                "is_success": is_success,
-                "success": is_success,
-            }
-        return info
-
-    def _camera_name(self, camera: str | None) -> str | None:
-        """Return the name of the camera of the images; raise UnknownName if there is none."""
-        names = [
-            spec.name
-            for vehicle in self._plan.scene.vehicles
-            for spec in vehicle.parts
-            if isinstance(spec, VirtualCameraSpec)
-        ]
-        if camera is not None and camera not in names:
-            raise UnknownName("camera", camera, names)
-        return camera or (names[0] if names else None)
-
-
-def _number(value: float | None) -> float:
-    """Return a value as a number; NaN if there is none."""
-    return float("nan") if value is None else float(value)

@@ -6,7 +6,12 @@ level with the same seed, level and actions.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import ExitStack
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from ..base.expression import parse
 from ..base.geometry import Array
@@ -22,7 +27,9 @@ from .task import trial_of
 
 
 class Episode:
-    """A running episode, which begins with the first observation.
+    """A running episode of one or more agents, which begins with the first observation.
+
+    The agents are the vehicles with an ``<u:environment>``, in the order of the file.
 
     Args:
         plan: the plan of the environment.
@@ -38,13 +45,13 @@ class Episode:
         trial = trial_of(seed, level)
         try:
             execution = self._stack.enter_context(open_trial(plan, trial, cache=cache))
-            spec = plan.benchmark.environment
-            assert spec is not None
-            assert execution.channel is not None
-            self._execution, self._channel = execution, execution.channel
+            self._execution, self._channels = execution, execution.channels
             self._rows = execution.rows()
             names = [measure.name for measure in plan.benchmark.measures]
-            self._reward = RewardFunction(spec.reward, names, self._channel.state())
+            self._rewards = [
+                RewardFunction(channel.spec.reward, names, channel.state())
+                for channel in self._channels
+            ]
             self._advance()
         except BaseException:
             self._stack.close()
@@ -56,40 +63,46 @@ class Episode:
         return self._execution.simulation
 
     @property
-    def layout(self) -> tuple[tuple[str, int], ...]:
-        """The name and the size of each part of the observation."""
-        return self._channel.observer.layout
+    def layouts(self) -> list[tuple[tuple[str, int], ...]]:
+        """The name and the size of each part of the observation of each agent."""
+        return [channel.observer.layout for channel in self._channels]
 
     @property
-    def n_actions(self) -> int:
-        """The number of numbers of an action."""
-        return self._channel.actuator.size
+    def n_actions(self) -> list[int]:
+        """The number of numbers of an action of each agent."""
+        return [channel.actuator.size for channel in self._channels]
 
-    def observe(self) -> Array:
-        """Return the present observation."""
-        return self._channel.take_observation()
+    def observe(self) -> list[Array]:
+        """Return the present observation of each agent."""
+        return [channel.take_observation() for channel in self._channels]
 
-    def step(self, action: Array) -> float:
-        """Apply an action until the next observation is due; return the reward.
+    def step(self, actions: Sequence[Array]) -> list[float]:
+        """Apply an action of each agent until the next observation is due; return the rewards.
 
         At the end of the level, `row` is set.
         """
-        last_action = self._channel.last_action
-        self._channel.set_action(action)
+        last_actions = [channel.last_action for channel in self._channels]
+        for channel, action in zip(self._channels, actions, strict=True):
+            channel.set_action(action)
         measures = {m.spec.name: m.measure for m in self._execution.active_measures}
         self._advance()
         measures |= {m.spec.name: m.measure for m in self._execution.active_measures}
-        state = self._channel.observer.state(last_action)
-        return self._reward.compute(measures, state, self._channel.last_action)
+        return [
+            reward.compute(measures, channel.observer.state(last_action), channel.last_action)
+            for channel, reward, last_action in zip(
+                self._channels, self._rewards, last_actions, strict=True
+            )
+        ]
 
     def _advance(self) -> None:
         """Take steps until an observation is due, or the level has ended."""
-        self._channel.is_due = self._channel.is_due and self.simulation.step == 0
+        for channel in self._channels:
+            channel.is_due = channel.is_due and self.simulation.step == 0
         for row in self._rows:
             if isinstance(row, LevelRow):
                 self.row = row
                 return
-            if row is None and self._channel.is_due:
+            if row is None and self._channels[0].is_due:
                 return
 
     @property
@@ -103,18 +116,41 @@ class Episode:
             and self.row.duration >= round(length / timestep) * timestep - timestep / 2.0
         )
 
-    @property
-    def is_success(self) -> bool:
-        """True if the level has ended with the status ``ok`` and the criterion of success."""
+    def is_success(self, agent: int = 0) -> bool:
+        """Return whether the level has ended with the status ``ok`` and an agent's success."""
         if self.row is None or self.row.status != "ok":
             return False
-        spec = self._plan.benchmark.environment
-        assert spec is not None
-        if spec.success is None:
+        criterion = self._channels[agent].spec.success
+        if criterion is None:
             return True
         values = {name: value for name, (value, _) in self.row.measures.items()}
-        result = parse(spec.success, list(values)).evaluate(values)
+        result = parse(criterion, list(values)).evaluate(values)
         return result is not None and result != 0.0
+
+    def result(self, agent: int = 0) -> dict[str, Any]:
+        """Return the result of the level for ``info``; empty before its end."""
+        if self.row is None:
+            return {}
+        is_success = self.is_success(agent)
+        return {
+            "measures": {name: _number(value) for name, (value, _) in self.row.measures.items()},
+            "score": _number(self.row.total),
+            "status": self.row.status,
+            "is_success": is_success,
+            "success": is_success,
+        }
+
+    def image(self, camera: str | None) -> npt.NDArray[np.uint8]:
+        """Return the present image of a camera, (h, w, 3).
+
+        Raises:
+            BadSetting: there is no camera.
+        """
+        if camera is None:
+            raise BadSetting("The scene has no <virtualCamera>; expected one to render.")
+        colour = self.simulation.image(camera).colour
+        assert colour is not None
+        return np.array(colour, dtype=np.uint8)
 
     def finish(self) -> TrialEnd | None:
         """Take the end of the trial, and close the scene."""
@@ -127,6 +163,11 @@ class Episode:
     def close(self) -> None:
         """Close the scene."""
         self._stack.close()
+
+
+def _number(value: float | None) -> float:
+    """Return a value as a number; NaN if there is none."""
+    return float("nan") if value is None else float(value)
 
 
 def environment_of(plan: Plan) -> EnvironmentSpec:

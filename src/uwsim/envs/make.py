@@ -1,4 +1,4 @@
-"""``uwsim.make_env``: the environment of any benchmark file."""
+"""``uwsim.make_env``, ``uwsim.make_parallel_env``: the environments of any benchmark file."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from ..errors import MissingExtra
 if TYPE_CHECKING:
     from ..editing import Benchmark, Scene
     from .benchmark_env import BenchmarkEnv
+    from .parallel_env import ParallelBenchmarkEnv
+    from .task import AgentOptions
 
 
 class EnvOptions(TypedDict, total=False):
@@ -25,6 +27,17 @@ class EnvOptions(TypedDict, total=False):
     vehicle: str | None
     reference: str | None
     period: float | None
+    settings: Mapping[str, float | str] | None
+    data_path: Sequence[str | Path]
+    render_mode: str | None
+    camera: str | None
+
+
+class ParallelOptions(TypedDict, total=False):
+    """The options of an environment of several vehicles; `ParallelBenchmarkEnv` describes them."""
+
+    scene: str | Path | Scene | None
+    agents: Mapping[str, AgentOptions] | None
     settings: Mapping[str, float | str] | None
     data_path: Sequence[str | Path]
     render_mode: str | None
@@ -48,3 +61,26 @@ def make_env(benchmark: str | Path | Benchmark, **options: Unpack[EnvOptions]) -
     from .benchmark_env import BenchmarkEnv
 
     return BenchmarkEnv(benchmark, **options)
+
+
+def make_parallel_env(
+    benchmark: str | Path | Benchmark, **options: Unpack[ParallelOptions]
+) -> ParallelBenchmarkEnv:
+    """Make the PettingZoo environment of a benchmark file in which several vehicles act.
+
+    Args:
+        benchmark: a benchmark file, a bundled name or a `Benchmark`; with ``agents`` it needs no
+            ``<u:environment>``.
+        options: the options of `uwsim.envs.parallel_env.ParallelBenchmarkEnv`.
+
+    Raises:
+        MissingExtra: PettingZoo is not installed.
+        UwsimError: a file, a name or an option is invalid.
+    """
+    if importlib.util.find_spec("pettingzoo") is None:
+        raise MissingExtra(
+            "Environments of several vehicles need PettingZoo: pip install 'uwsim[envs]'."
+        )
+    from .parallel_env import ParallelBenchmarkEnv
+
+    return ParallelBenchmarkEnv(benchmark, **options)

@@ -130,6 +130,8 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
         reasons.append("its vehicle has moving joints")
     if any(isinstance(part, BatterySpec) for item in model.scene.vehicles for part in item.parts):
         reasons.append("its vehicle has a battery, which may limit its thrusters")
+    if spec.reference_vehicle(plan.benchmark.measures) is not None:
+        reasons.append("its reference is relative to a vehicle")
     if spec.topic_field:
         reasons.append("it observes topics")
     topics = [

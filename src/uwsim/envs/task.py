@@ -7,18 +7,19 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from ..benchmark.environment import ActionSpec, EnvironmentSpec, TopicFieldSpec
 from ..benchmark.updaters import Level
 from ..bus import Node
 from ..editing import Benchmark, Scene
 from ..editing.run_files import write_run_files
-from ..errors import BadSetting, UnknownName
+from ..errors import BadSetting, UnknownName, did_you_mean
 from ..messages import Empty
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan import Plan, Trial
 from ..runs.planning.plan_request import PlanRequest
+from ..sensors.virtual_camera import VirtualCameraSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +44,17 @@ class EnvironmentOptions:
     """The time between two actions [s]."""
 
 
+class AgentOptions(TypedDict, total=False):
+    """The options of the environment of one of several vehicles; `BenchmarkEnv` describes them."""
+
+    observation: Sequence[str] | None
+    action: Sequence[str] | None
+    reward: str | None
+    success: str | None
+    reference: str | None
+    period: float | None
+
+
 class OuterPolicy:
     """The algorithm of an environment: it does nothing, as the program outside acts."""
 
@@ -60,10 +72,99 @@ def make_task(
     data_path: Sequence[str | Path],
     scene: str | Path | Scene | None = None,
 ) -> Plan:
-    """Read a benchmark and its scene, and return the plan of its environment.
+    """Read a benchmark and its scene, and return the plan of the environment of one vehicle.
 
     Raises:
-        BadSetting: the benchmark has no environment, or a part of it is invalid.
+        BadSetting: the benchmark has no environment, environments of several vehicles of which
+            none is chosen, or a part of it is invalid.
+        UwsimError: a file is invalid.
+    """
+    plan = read_plan(benchmark, settings=settings, data_path=data_path, scene=scene)
+    environments = plan.benchmark.environments
+    vehicles = [spec.vehicle for spec in environments]
+    if len(environments) > 1 and options.vehicle not in vehicles:
+        raise BadSetting(
+            f"{plan.benchmark.path}: the benchmark has environments of {len(vehicles)} vehicles; "
+            f"expected vehicle={vehicles[0]!r}, or uwsim.make_parallel_env for all of them."
+            f"{did_you_mean(options.vehicle or '', vehicles)}"
+        )
+    spec = next((spec for spec in environments if spec.vehicle == options.vehicle), None)
+    return with_environments(
+        plan, [change_environment(spec or plan.benchmark.environment, options, plan)]
+    )
+
+
+def make_agents_task(
+    benchmark: str | Path | Benchmark,
+    agents: Mapping[str, EnvironmentOptions] | None,
+    *,
+    settings: Mapping[str, float | str],
+    data_path: Sequence[str | Path],
+    scene: str | Path | Scene | None = None,
+) -> Plan:
+    """Read a benchmark and its scene, and return the plan of the environments of several vehicles.
+
+    Args:
+        benchmark: a benchmark file, a bundled name, or a `Benchmark`.
+        agents: the parts of the environment of each vehicle that acts, by its name; None: the
+            environments of the file.
+        settings: values to change in the scene and the updaters.
+        data_path: more folders in which files are searched.
+        scene: the scene; None: the scene that the benchmark names.
+
+    Raises:
+        BadSetting: there is no environment, their periods differ, or a part of one is invalid.
+        UnknownName: the scene has no such vehicle.
+        UwsimError: a file is invalid.
+    """
+    plan = read_plan(benchmark, settings=settings, data_path=data_path, scene=scene)
+    specs = {spec.vehicle: spec for spec in plan.benchmark.environments}
+    if agents is not None:
+        vehicles = [vehicle.name for vehicle in plan.scene.vehicles]
+        for name in agents:
+            if name not in vehicles:
+                raise UnknownName("vehicle", name, vehicles)
+        specs = {
+            name: change_environment(specs.get(name), replace(options, vehicle=name), plan)
+            for name, options in agents.items()
+        }
+    if not specs:
+        raise BadSetting(
+            f"{plan.benchmark.path}: the benchmark has no <u:environment>; give agents, as "
+            "agents={'bluerov2': {'observation': [...], 'action': [...]}}."
+        )
+    periods = sorted({spec.period for spec in specs.values()})
+    if len(periods) > 1:
+        raise BadSetting(
+            f"{plan.benchmark.path}: the environments have the periods "
+            f"{', '.join(f'{period:g}' for period in periods)} s; expected the same for all agents."
+        )
+    return with_environments(plan, list(specs.values()))
+
+
+def with_environments(plan: Plan, environments: Sequence[EnvironmentSpec]) -> Plan:
+    """Return a plan with other environments.
+
+    Raises:
+        BadSetting: a part of an environment is invalid.
+    """
+    measures = plan.benchmark.measures
+    if errors := [message for spec in environments for _, message in spec.errors(measures)]:
+        raise BadSetting(f"{plan.benchmark.path}: {'; '.join(errors)}.")
+    benchmark = replace(plan.benchmark, environments=tuple(environments))
+    return replace(plan, benchmark=benchmark, is_blind=True)
+
+
+def read_plan(
+    benchmark: str | Path | Benchmark,
+    *,
+    settings: Mapping[str, float | str],
+    data_path: Sequence[str | Path],
+    scene: str | Path | Scene | None,
+) -> Plan:
+    """Read a benchmark and its scene, and return the plan of a program outside that acts.
+
+    Raises:
         UwsimError: a file is invalid.
     """
     with tempfile.TemporaryDirectory(prefix="uwsim-") as folder:
@@ -85,11 +186,7 @@ def make_task(
         plan = replace(plan, benchmark=replace(plan.benchmark, path=benchmark.path))
     if isinstance(scene, Scene):
         plan = replace(plan, scene=replace(plan.scene, path=scene.path))
-    environment = change_environment(plan.benchmark.environment, options, plan)
-    if errors := [message for _, message in environment.errors(plan.benchmark.measures)]:
-        raise BadSetting(f"{plan.benchmark.path}: {'; '.join(errors)}.")
-    benchmark_spec = replace(plan.benchmark, environment=environment)
-    return replace(plan, benchmark=benchmark_spec, is_blind=True)
+    return plan
 
 
 def change_environment(
@@ -121,6 +218,23 @@ def change_environment(
         vehicles = [vehicle.name for vehicle in plan.scene.vehicles]
         spec = EnvironmentSpec(vehicle=vehicles[0] if vehicles else "", action=())
     return replace(spec, **changes)
+
+
+def find_camera(plan: Plan, name: str | None) -> str | None:
+    """Return the camera of the images: that of a name, or the first; None if there is none.
+
+    Raises:
+        UnknownName: the scene has no camera of that name.
+    """
+    names = [
+        spec.name
+        for vehicle in plan.scene.vehicles
+        for spec in vehicle.parts
+        if isinstance(spec, VirtualCameraSpec)
+    ]
+    if name is not None and name not in names:
+        raise UnknownName("camera", name, names)
+    return name or (names[0] if names else None)
 
 
 def read_action(text: str) -> ActionSpec:

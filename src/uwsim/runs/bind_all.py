@@ -7,7 +7,7 @@ from ..middleware.lockstep.output_client import check_outputs
 from ..simulation import Simulation
 from .planning.plan import Plan
 from .trial.level_triggers import LevelTriggers
-from .trial.policy_channel import PolicyChannel
+from .trial.policy_channel import open_channels
 from .trial.triggered_measure import TriggeredMeasure
 
 
@@ -29,6 +29,6 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
         check_outputs(plan.algorithm.client.outputs, simulation.bus)
     for measure in measures:
         measure.close()
-    if benchmark.environment is not None:
-        PolicyChannel(benchmark.environment, benchmark.measures, simulation).close()
+    for channel in open_channels(benchmark, simulation):
+        channel.close()
     LevelTriggers(benchmark, simulation.world.measure_view).close()

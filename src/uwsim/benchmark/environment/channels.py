@@ -27,7 +27,7 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.numerics.linear import rotate
 from ...world import World
-from ..reference_trajectory import TrajectorySpec
+from ..metrics.reference import Reference
 
 DOWN = np.array([0.0, 0.0, -1.0])
 """The direction of gravity in W."""
@@ -59,22 +59,21 @@ class VehicleState:
 
     @staticmethod
     def read(
-        world: World, vehicle: str, trajectory: TrajectorySpec | None, last_action: Array
+        world: World, vehicle: str, reference: Reference | None, last_action: Array
     ) -> VehicleState:
         """Read the present state of a vehicle."""
         world_from_base = world.body(vehicle).world_from_body
         localized_from_world = world.world_from_localized.inverse()
         no_reference = np.full(3, np.nan)
-        time = world.time
         return VehicleState(
             position=rotate(localized_from_world.rotation, world_from_base.position)
             + localized_from_world.position,
             localized_from_base=(localized_from_world @ world_from_base).rotation,
             world_from_base=world_from_base.rotation,
             twist=world.twist(vehicle),
-            reference_position=no_reference if trajectory is None else trajectory.position(time),
-            reference_motion=no_reference if trajectory is None else trajectory.velocity(time),
-            time=time,
+            reference_position=no_reference if reference is None else reference.position(),
+            reference_motion=no_reference if reference is None else reference.velocity(),
+            time=world.time,
             last_action=last_action,
         )
 

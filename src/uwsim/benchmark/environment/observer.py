@@ -9,6 +9,7 @@ import numpy as np
 from ...base.geometry import Array
 from ...world import World
 from ..measures import MeasureSpec
+from ..metrics.reference import Reference
 from .channels import CHANNELS, VehicleState
 from .spec import EnvironmentSpec
 from .topic_fields import TopicField
@@ -44,7 +45,12 @@ class Observer:
         n_actions: int,
     ) -> None:
         self._world, self._vehicle = world, spec.vehicle
-        self._trajectory = spec.trajectory(measures)
+        trajectory = spec.trajectory(measures)
+        self._reference = (
+            None
+            if trajectory is None
+            else Reference(trajectory, world, relative_to=spec.reference_vehicle(measures))
+        )
         self._channels = [CHANNELS[name] for name in spec.channels]
         self._fields = [TopicField(field, world) for field in spec.topic_field]
         sizes = [n_actions if size is None else size for size, _ in self._channels]
@@ -57,7 +63,7 @@ class Observer:
 
     def state(self, last_action: Array) -> VehicleState:
         """Return the present state of the vehicle."""
-        return VehicleState.read(self._world, self._vehicle, self._trajectory, last_action)
+        return VehicleState.read(self._world, self._vehicle, self._reference, last_action)
 
     def read(self, last_action: Array) -> Array:
         """Return the present observation, limited to `MAX_OBSERVATION`, (size,)."""

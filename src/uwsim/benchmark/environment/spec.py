@@ -102,6 +102,13 @@ class EnvironmentSpec(Spec):
                 return TrajectorySpec(shape="point", centre=spec.position)
         return None
 
+    def reference_vehicle(self, measures: Sequence[MeasureSpec]) -> str | None:
+        """Return the vehicle relative to which the desired position is; None: it is in L."""
+        for spec in measures:
+            if spec.name == self.reference and isinstance(spec, TrackingErrorSpec):
+                return spec.relative_to
+        return None
+
     def errors(self, measures: Sequence[MeasureSpec]) -> Iterator[tuple[str, str]]:
         """Yield the errors of the element: the name of a child, and the message.
 

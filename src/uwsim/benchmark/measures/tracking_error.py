@@ -8,6 +8,9 @@ r"""Tracking error: the distance of a body from a place that moves with time.
                    <radius>1</radius> <period>20</period> </trajectory>
     </u:trackingError>
 
+With ``<relativeTo>leader</relativeTo>``, the trajectory is that of the vehicle in a formation: its
+places are offsets from the position of the vehicle ``leader``.
+
 L is the localized world frame.
 """
 
@@ -20,7 +23,8 @@ from typing import ClassVar
 
 from ...base.numerics.linear import rotate
 from ...schema import element
-from ...world import Body, World
+from ...world import World
+from ..metrics.reference import Reference
 from ..metrics.signal import VALUES, Signal
 from ..reference_trajectory import TrajectorySpec
 from .measure import Measure, MeasureSpec
@@ -36,6 +40,9 @@ class TrackingErrorSpec(MeasureSpec):
     """The route of the body."""
     trajectory: TrajectorySpec
     """The place at which the body should be at each time."""
+    relative_to: str | None = element(default=None, refers_to="vehicle")
+    """The vehicle from whose position the places of the trajectory are offsets, in the axes of L;
+    None: the places are positions in L."""
 
     def errors(self) -> Sequence[str]:
         """Return errors of the trajectory."""
@@ -43,7 +50,7 @@ class TrackingErrorSpec(MeasureSpec):
 
     def bind(self, world: World) -> TrackingError:
         """Resolve the target; raises UnknownName if there is none."""
-        return TrackingError(self, world, world.body(self.target))
+        return TrackingError(self, world)
 
 
 class TrackingError(Measure):
@@ -51,13 +58,15 @@ class TrackingError(Measure):
 
     There is a sample at each step, at the simulation time t. x, y, z are the components of
     :math:`p - q` in L. Unlike the distance from a path (``<pathFollowing>``), it counts whether the
-    body is at the right place at the right time.
+    body is at the right place at the right time. With ``relativeTo``, q is the position of that
+    vehicle plus the place of the trajectory.
     """
 
     unit = "m"
 
-    def __init__(self, spec: TrackingErrorSpec, world: World, body: Body) -> None:
-        self._body, self._world, self._trajectory = body, world, spec.trajectory
+    def __init__(self, spec: TrackingErrorSpec, world: World) -> None:
+        self._body, self._world = world.body(spec.target), world
+        self._reference = Reference(spec.trajectory, world, relative_to=spec.relative_to)
         self._statistic = spec.value
         self._localized_from_world = world.world_from_localized.inverse()
         self._signal = Signal(("x", "y", "z"))
@@ -70,7 +79,7 @@ class TrackingError(Measure):
         """Take a sample."""
         frame = self._localized_from_world
         position = rotate(frame.rotation, self._body.world_from_body.position) + frame.position
-        error = (position - self._trajectory.position(self._world.time)).tolist()
+        error = (position - self._reference.position()).tolist()
         self._signal.add(math.hypot(*error), error)
 
     @property

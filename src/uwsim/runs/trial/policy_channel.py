@@ -4,11 +4,14 @@ A benchmark with ``<u:environment>`` publishes the vector of observations on ``o
 (std_msgs/Float64MultiArray, a labelled dimension for each part) every ``<period>``, from step 0
 on. The newest message on ``action`` becomes commands before the next step of the simulation. A
 policy is thus an algorithm like any other; `uwsim.envs` uses the same object without messages.
+
+With several ``<u:environment>``, each vehicle has topics of its own, ``VEHICLE/observation`` and
+``VEHICLE/action``, and the algorithm's parameter ``agents`` has the names of the vehicles.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -17,29 +20,41 @@ from ...benchmark.environment import Actuator, EnvironmentSpec, Observer
 from ...benchmark.environment.channels import VehicleState
 from ...benchmark.measures import MeasureSpec
 from ...benchmark.spec import BenchmarkSpec
+from ...bus import Algorithm
 from ...errors import BadMessage
 from ...messages import Float64MultiArray, MultiArrayDimension, MultiArrayLayout
 from ...simulation import Simulation
 
 OBSERVATION, ACTION = "observation", "action"
 """The names of the topics."""
+AGENTS = "agents"
+"""The parameter of an algorithm with the names of the vehicles that have policies."""
 
 
 class PolicyChannel:
-    """The observations and actions of one trial.
+    """The observations and actions of one vehicle in one trial.
 
     Args:
-        spec: the environment of the benchmark.
+        spec: the environment of the vehicle.
         measures: the measures of the benchmark.
         simulation: the simulation of the trial.
+        prefix: the beginning of the names of the topics.
 
     Raises:
         UwsimError: the scene lacks a name in the environment, or cannot execute its actions.
     """
 
     def __init__(
-        self, spec: EnvironmentSpec, measures: Sequence[MeasureSpec], simulation: Simulation
+        self,
+        spec: EnvironmentSpec,
+        measures: Sequence[MeasureSpec],
+        simulation: Simulation,
+        *,
+        prefix: str = "",
     ) -> None:
+        self.spec = spec
+        """The environment of the vehicle."""
+        self._observation_topic, self._action_topic = prefix + OBSERVATION, prefix + ACTION
         world = simulation.world.measure_view
         self._simulation = simulation
         self.actuator = Actuator(spec, world)
@@ -58,9 +73,9 @@ class PolicyChannel:
             ],
             data_offset=0,
         )
-        self._publish = simulation.bus.publisher(OBSERVATION, Float64MultiArray)
+        self._publish = simulation.bus.publisher(self._observation_topic, Float64MultiArray)
         self._unsubscribe = simulation.bus.subscribe(
-            ACTION, Float64MultiArray, self._receive, check=self._check
+            self._action_topic, Float64MultiArray, self._receive, check=self._check
         )
         self._stop = simulation.world.schedule.create_timer(1.0 / spec.period, self._observe)
 
@@ -93,14 +108,14 @@ class PolicyChannel:
 
     def _observe(self) -> None:
         self.is_due = True
-        if self._simulation.bus.has_subscribers(OBSERVATION):
+        if self._simulation.bus.has_subscribers(self._observation_topic):
             observation = self.observer.read(self.last_action)
             self._publish(Float64MultiArray(layout=self._layout, data=observation))
 
     def _check(self, message: Float64MultiArray) -> None:
         if message.data.shape != (self.actuator.size,) or not np.isfinite(message.data).all():
             raise BadMessage(
-                f"A message on {ACTION!r} has {message.data.size} values; expected "
+                f"A message on {self._action_topic!r} has {message.data.size} values; expected "
                 f"{self.actuator.size} finite numbers from -1 to 1."
             )
 
@@ -108,8 +123,32 @@ class PolicyChannel:
         self.set_action(message.data)
 
 
-def open_channel(benchmark: BenchmarkSpec, simulation: Simulation) -> PolicyChannel | None:
-    """Open the channel of a benchmark's environment; return None if it has none."""
-    if benchmark.environment is None:
-        return None
-    return PolicyChannel(benchmark.environment, benchmark.measures, simulation)
+def open_channels(benchmark: BenchmarkSpec, simulation: Simulation) -> tuple[PolicyChannel, ...]:
+    """Open the channel of each environment of a benchmark, in the order of the file."""
+    agents = agents_of(benchmark)
+    return tuple(
+        PolicyChannel(
+            spec, benchmark.measures, simulation, prefix=f"{spec.vehicle}/" if agents else ""
+        )
+        for spec in benchmark.environments
+    )
+
+
+def agents_of(benchmark: BenchmarkSpec) -> tuple[str, ...]:
+    """Return the vehicles that have policies if there are several; otherwise none.
+
+    Their topics are ``VEHICLE/observation`` and ``VEHICLE/action``.
+    """
+    vehicles = tuple(spec.vehicle for spec in benchmark.environments)
+    return vehicles if len(vehicles) > 1 else ()
+
+
+def agent_parameters(benchmark: BenchmarkSpec, algorithm: type[Algorithm]) -> dict[str, str]:
+    """Return the parameter ``agents``: the vehicles that have policies, separated by blanks.
+
+    It is empty if there is one vehicle, or if the algorithm has no such parameter.
+    """
+    agents = agents_of(benchmark)
+    defaults: object = getattr(algorithm, "PARAMETERS", {AGENTS: ""})
+    has_parameter = isinstance(defaults, Mapping) and AGENTS in defaults
+    return {AGENTS: " ".join(agents)} if agents and has_parameter else {}

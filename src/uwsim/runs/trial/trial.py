@@ -49,7 +49,7 @@ from .make_algorithm import make_algorithm, reported_parameters, unread_paramete
 from .motion_recorder import MotionRecorder
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
-from .policy_channel import open_channel
+from .policy_channel import agent_parameters, open_channels
 from .prelude import prelude_levels
 from .status import SIMULATION_ERROR, StatusMonitor, to_line
 from .trial_observer import TrialObserver
@@ -170,7 +170,12 @@ class TrialExecution:
         self._observer = observer
         self._inputs = pilot_inputs(plan, trial, simulation, observer)
         scene_parameters = {} if self._inputs is None else pilot_topics(simulation)
-        self._parameters = {**scene_parameters, **known_corners(plan), **plan.algorithm.parameters}
+        self._parameters = {
+            **scene_parameters,
+            **known_corners(plan),
+            **agent_parameters(benchmark, plan.algorithm.cls),
+            **plan.algorithm.parameters,
+        }
         self._algorithm = make_algorithm(
             plan, partial(program, simulation), self._parameters, calls
         )
@@ -186,8 +191,8 @@ class TrialExecution:
         self._facts: dict[str, Fact] = {}
         self._target_motion: TargetMotion | None = None
         self._error_floor: ErrorFloor | None = None
-        self.channel = open_channel(benchmark, simulation)
-        """The observations and actions of a policy; None if the benchmark has no environment."""
+        self.channels = open_channels(benchmark, simulation)
+        """The observations and actions of policies, one for each ``<u:environment>``."""
         self.active_measures: tuple[TriggeredMeasure, ...] = ()
         """The measures of the running level; none outside of levels."""
         self._level: Level | None = None  # the latest level
@@ -241,9 +246,10 @@ class TrialExecution:
 
     def _step(self) -> Iterator[None]:
         """Take one step, with the new action of a policy, before which this pauses."""
-        if self.channel is not None:
+        if self.channels:
             yield None
-            self.channel.apply()
+        for channel in self.channels:
+            channel.apply()
         self._simulation.advance()
 
     def _level_rows(self) -> Iterator[LevelRow | None]:
