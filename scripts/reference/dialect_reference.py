@@ -112,7 +112,13 @@ def _old_names() -> str:
 
 def benchmark_page() -> str:
     """Return ``docs/benchmark-dialect.md``."""
-    from uwsim.benchmark.environment import ActionSpec, EnvironmentSpec, TopicFieldSpec
+    from uwsim.benchmark.environment import (
+        ActionSpec,
+        ContactSpec,
+        EnvironmentSpec,
+        RelativePoseSpec,
+        TopicFieldSpec,
+    )
     from uwsim.benchmark.ground_truth import GROUND_TRUTHS
     from uwsim.benchmark.measures import MEASURES
     from uwsim.benchmark.spec import BenchmarkSpec, FunctionSpec
@@ -129,6 +135,8 @@ def benchmark_page() -> str:
     parts = [BENCHMARK_HEAD, _section("benchmark", BenchmarkSpec, homes=homes)]
     parts.append(_section("function", FunctionSpec))
     parts.append(_section("u:environment", EnvironmentSpec))
+    parts.append(_section("relativePose", RelativePoseSpec))
+    parts.append(_section("contact", ContactSpec))
     parts.append(_section("topicField", TopicFieldSpec))
     parts.append(_section("action", ActionSpec))
     for title, form, table in families:

@@ -20,6 +20,7 @@ BLIND = (
     "position-lqr",
     "position-p",
     "position-pi",
+    "reach",
     "scripted",
 )
 LOOKING = [name for name in ALGORITHMS if name not in BLIND and not name.startswith("grasp")]

@@ -69,12 +69,13 @@ def test_gymnasium_finds_nothing_wrong_with_a_task(tmp_path: Path) -> None:
 def test_a_task_gives_finite_numbers(task: str, tmp_path: Path) -> None:
     env = gymnasium.make(task, benchmark=shorten(tmp_path, TASKS[task]))
     observation, _ = env.reset(seed=1)
-    for _ in range(10):
+    terminated = truncated = False
+    while not (terminated or truncated):
         assert np.isfinite(observation).all()
         observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
         assert np.isfinite(reward)
     assert (terminated, truncated) == (False, True)
-    assert {"offset", "energy"} <= set(info["measures"])
+    assert "energy" in info["measures"]
     env.close()
 
 

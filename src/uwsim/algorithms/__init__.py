@@ -14,6 +14,7 @@ from ..errors import BadSetting, did_you_mean, type_and_text
 from .autopilot_missions import AutopilotPath, AutopilotStation
 from .control import PI, Feedforward, P
 from .control.formation import FormationPI
+from .control.reach import Reach
 from .direct import Esm, InverseCompositional, SsdEsm
 from .docking import Docking
 from .ecc import Ecc
@@ -51,6 +52,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "position-lqr": PositionLQR,
     "position-p": PositionP,
     "position-pi": PositionPI,
+    "reach": Reach,
     "scripted": ScriptedPilot,
     "ssd-esm": SsdEsm,
 }

@@ -77,6 +77,10 @@ def _reference_errors(spec: object, stage: Stage) -> Iterator[tuple[int | None, 
                 yield line_of(spec, field.tag), str(error)
         elif isinstance(value, Spec):
             yield from _reference_errors(value, stage)
+        elif isinstance(value, tuple):
+            for child in value:
+                if isinstance(child, Spec) and not isinstance(child, Part):
+                    yield from _reference_errors(child, stage)
 
 
 def _environment_errors(benchmark: BenchmarkSpec, stage: Stage) -> Iterator[tuple[int | None, str]]:

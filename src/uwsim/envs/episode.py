@@ -47,9 +47,12 @@ class Episode:
             execution = self._stack.enter_context(open_trial(plan, trial, cache=cache))
             self._execution, self._channels = execution, execution.channels
             self._rows = execution.rows()
-            names = [measure.name for measure in plan.benchmark.measures]
             self._rewards = [
-                RewardFunction(channel.spec.reward, names, channel.state())
+                RewardFunction(
+                    channel.spec.reward,
+                    channel.spec.sample_names(plan.benchmark.measures),
+                    channel.state(),
+                )
                 for channel in self._channels
             ]
             self._advance()
@@ -88,7 +91,12 @@ class Episode:
         self._advance()
         measures |= {m.spec.name: m.measure for m in self._execution.active_measures}
         return [
-            reward.compute(measures, channel.observer.state(last_action), channel.last_action)
+            reward.compute(
+                measures,
+                channel.observer.read_relations(),
+                channel.observer.state(last_action),
+                channel.last_action,
+            )
             for channel, reward, last_action in zip(
                 self._channels, self._rewards, last_actions, strict=True
             )

@@ -13,6 +13,8 @@ TASKS = {
     "uwsim/Helix-v0": "helix",
     "uwsim/Lemniscate-v0": "lemniscate",
     "uwsim/Docking-v0": "docking",
+    "uwsim/Reach-v0": "reach",
+    "uwsim/Grasp-v0": "grasp",
 }
 """The benchmark of each task."""
 

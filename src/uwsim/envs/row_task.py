@@ -134,6 +134,8 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
         reasons.append("its reference is relative to a vehicle")
     if spec.topic_field:
         reasons.append("it observes topics")
+    if spec.relations:
+        reasons.append("it observes relations of bodies")
     topics = [
         interface.topic
         for interface in model.scene.ros_interfaces
@@ -143,9 +145,9 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
         action.limits for action in spec.action
     ):
         reasons.append("its action is not the commands of all thrusters")
-    measures = [measure.name for measure in plan.benchmark.measures]
+    samples = spec.sample_names(plan.benchmark.measures)
     known_names = {spec.reference or "", *REWARD_NAMES}
-    reward = parse(spec.reward, [*measures, *REWARD_NAMES])
+    reward = parse(spec.reward, [*samples, *REWARD_NAMES])
     other_measures = [name for name in reward.names if name not in known_names]
     if other_measures:
         reasons.append(f"its reward has the measure {', '.join(other_measures)}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -9,7 +10,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypedDict
 
-from ..benchmark.environment import ActionSpec, EnvironmentSpec, TopicFieldSpec
+from ..benchmark.environment import (
+    ActionSpec,
+    ContactSpec,
+    EnvironmentSpec,
+    RelativePoseSpec,
+    TopicFieldSpec,
+)
 from ..benchmark.updaters import Level
 from ..bus import Node
 from ..editing import Benchmark, Scene
@@ -27,8 +34,9 @@ class EnvironmentOptions:
     """The parts of an environment that replace those of the benchmark file; None: no change."""
 
     observation: Sequence[str] | None = None
-    """The quantities of the state, as ``positionError``, and fields of topics, as
-    ``/bluerov2/dvl:velocity``."""
+    """The quantities of the state, as ``positionError``, fields of topics, as
+    ``/bluerov2/dvl:velocity``, and relations of bodies, as ``dock=pose(dock, bluerov2)`` and
+    ``touched=contact(dock, bluerov2)``."""
     action: Sequence[str] | None = None
     """The topics of the commands, as ``/bluerov2/thrusters``, with axes and limits as
     ``/cmd_vel:vx=0.5,wz=1``."""
@@ -203,7 +211,10 @@ def change_environment(
         if (value := getattr(options, name)) is not None
     }
     if options.observation is not None:
-        names = [name for name in options.observation if ":" not in name]
+        relations = [read_relation(name) for name in options.observation if "(" in name]
+        changes["relative_pose"] = tuple(r for r in relations if isinstance(r, RelativePoseSpec))
+        changes["contact"] = tuple(r for r in relations if isinstance(r, ContactSpec))
+        names = [name for name in options.observation if ":" not in name and "(" not in name]
         fields = [name.rsplit(":", 1) for name in options.observation if ":" in name]
         changes["observation"] = " ".join(names)
         changes["topic_field"] = tuple(TopicFieldSpec(topic=t, field=f) for t, f in fields)
@@ -235,6 +246,26 @@ def find_camera(plan: Plan, name: str | None) -> str | None:
     if name is not None and name not in names:
         raise UnknownName("camera", name, names)
     return name or (names[0] if names else None)
+
+
+def read_relation(text: str) -> RelativePoseSpec | ContactSpec:
+    """Read a relation of bodies: ``NAME=pose(BODY, FRAME)`` or ``NAME=contact(BODY, BODY)``.
+
+    The first is the pose of a body in the frame of another.
+
+    Raises:
+        BadSetting: the text has another form.
+    """
+    match = re.fullmatch(r"\s*(\w+)\s*=\s*(pose|contact)\(([^(),]+),([^(),]+)\)\s*", text)
+    if match is None:
+        raise BadSetting(
+            f"observation {text[:80]!r} is no relation; expected 'dock=pose(dock, bluerov2)' or "
+            "'touched=contact(dock, bluerov2)'."
+        )
+    name, kind, first, second = (group.strip() for group in match.groups())
+    if kind == "pose":
+        return RelativePoseSpec(name=name, to=first, from_=second)
+    return ContactSpec(name=name, target=first, other=second)
 
 
 def read_action(text: str) -> ActionSpec:

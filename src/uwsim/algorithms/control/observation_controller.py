@@ -43,6 +43,11 @@ class ObservationController(abc.ABC):
         with suppress(UnknownName):
             node.call(START_SERVICE, Empty())
 
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The parts of the observation that are needed."""
+        return self.CHANNELS
+
     @abc.abstractmethod
     def command(self, parts: Mapping[str, Array], dt: float) -> tuple[Array, float]:
         """Return the commanded velocity in the axes of the vehicle, and the turn rate.
@@ -63,7 +68,7 @@ class ObservationController(abc.ABC):
 
     def _on_observation(self, message: Float64MultiArray) -> None:
         parts = {name: message.data[part] for name, part in slices_of(message).items()}
-        for channel in self.CHANNELS:
+        for channel in self.channels:
             if channel not in parts:
                 raise BadSetting(f"The observation has no {channel}, which this {self.KIND} needs.")
         dt = 0.0 if self._time is None else self._node.now - self._time

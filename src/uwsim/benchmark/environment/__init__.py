@@ -1,8 +1,8 @@
 """The learning environment of a benchmark, ``<u:environment>``: observations, actions, reward.
 
 `spec` has the elements, `channels` the quantities of a vehicle's state, `topic_fields` the numbers
-of messages, `observer` the vector of observations, `actuator` the commands, and `reward` the
-formulas.
+of messages, `relations` the poses and contacts of bodies, `observer` the vector of observations,
+`actuator` the commands, and `reward` the formulas.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from .actuator import Actuator
 from .channels import CHANNELS
 from .observer import Observer
+from .relations import ContactSpec, RelativePoseSpec
 from .reward import REWARD_NAMES, RewardFunction
 from .spec import ActionSpec, EnvironmentSpec, TopicFieldSpec
 
@@ -18,8 +19,10 @@ __all__ = [
     "REWARD_NAMES",
     "ActionSpec",
     "Actuator",
+    "ContactSpec",
     "EnvironmentSpec",
     "Observer",
+    "RelativePoseSpec",
     "RewardFunction",
     "TopicFieldSpec",
 ]

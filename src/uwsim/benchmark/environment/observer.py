@@ -11,6 +11,7 @@ from ...world import World
 from ..measures import MeasureSpec
 from ..metrics.reference import Reference
 from .channels import CHANNELS, VehicleState
+from .relations import bind_relations
 from .spec import EnvironmentSpec
 from .topic_fields import TopicField
 
@@ -52,9 +53,15 @@ class Observer:
             else Reference(trajectory, world, relative_to=spec.reference_vehicle(measures))
         )
         self._channels = [CHANNELS[name] for name in spec.channels]
+        self._relations = bind_relations(spec.relations, world)
         self._fields = [TopicField(field, world) for field in spec.topic_field]
         sizes = [n_actions if size is None else size for size, _ in self._channels]
-        names = [*spec.channels, *(f"{f.topic}:{f.field}" for f in spec.topic_field)]
+        names = [
+            *spec.channels,
+            *self._relations,
+            *(f"{f.topic}:{f.field}" for f in spec.topic_field),
+        ]
+        sizes += [relation.size for relation in self._relations.values()]
         sizes += [field.size for field in self._fields]
         self.layout: tuple[tuple[str, int], ...] = tuple(zip(names, sizes, strict=True))
         """The name and the size of each part of the vector, in order."""
@@ -68,7 +75,13 @@ class Observer:
     def read(self, last_action: Array) -> Array:
         """Return the present observation, limited to `MAX_OBSERVATION`, (size,)."""
         state = self.state(last_action)
-        return limit_numbers([*self.read_channels(state), *(f.read() for f in self._fields)])
+        relations = (relation.read() for relation in self._relations.values())
+        fields = (field.read() for field in self._fields)
+        return limit_numbers([*self.read_channels(state), *relations, *fields])
+
+    def read_relations(self) -> dict[str, float]:
+        """Return the present numbers of the relations for the reward, by name."""
+        return {name: relation.number() for name, relation in self._relations.items()}
 
     def read_channels(self, state: VehicleState) -> list[Array]:
         """Return the numbers of the observed quantities of a state, or of rows of states."""

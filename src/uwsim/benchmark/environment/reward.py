@@ -10,7 +10,10 @@ time           the simulation time [s]
 =============  ================================================================================
 
 The newest sample of a measure is the first number of its log: for a ``<positionError>`` the
-present distance, whichever statistic ``u:value`` selects. A step in which a measure of the
+present distance, whichever statistic ``u:value`` selects. The other numbers of the log of some
+measures have names, such as ``success_height`` of a ``<u:grasp>`` with the name ``success``
+(`MeasureSpec.columns`). The name of a ``<relativePose>`` is its distance [m], that of a
+``<contact>`` is 1 or 0. A step in which a measure of the
 expression has no sample, or in which the expression is not finite, has the reward 0.
 """
 
@@ -37,12 +40,12 @@ class RewardFunction:
 
     Args:
         text: the expression.
-        measures: the names of the measures.
+        names: the names of samples: those of measures, their columns, poses and contacts.
         state: the state at the start of the episode.
     """
 
-    def __init__(self, text: str, measures: Sequence[str], state: VehicleState) -> None:
-        self._expression = parse(text, [*measures, *REWARD_NAMES])
+    def __init__(self, text: str, names: Sequence[str], state: VehicleState) -> None:
+        self._expression = parse(text, [*names, *REWARD_NAMES])
         self.names = frozenset(self._expression.names)
         """The names in the expression."""
         self._up = state.gravity
@@ -51,17 +54,28 @@ class RewardFunction:
         """Begin new episodes of some rows, (n,), in the present state of all rows."""
         self._up = np.where(rows[:, None], state.gravity, self._up)
 
-    def compute(self, measures: Mapping[str, Measure], state: VehicleState, action: Array) -> float:
+    def compute(
+        self,
+        measures: Mapping[str, Measure],
+        relations: Mapping[str, float],
+        state: VehicleState,
+        action: Array,
+    ) -> float:
         """Compute the reward of a step.
 
         Args:
             measures: the active measures by name.
+            relations: the distances of poses [m], and contacts, by name.
             state: the state after the step, with the action before this one.
             action: the action of the step.
         """
         values: dict[str, float | None] = {
             name: _newest_sample(measure) for name, measure in measures.items()
         }
+        for name, measure in measures.items():
+            if any(text.startswith(f"{name}_") for text in self.names):
+                values |= _read_columns(name, measure)
+        values |= relations
         numbers = self._state_numbers(state, action)
         values |= {name: float(number) for name, number in numbers.items()}
         for name in self.names:
@@ -102,6 +116,13 @@ def magnitude(vector: Array) -> Array:
     """Return the length of a vector (3,), or of rows of them."""
     result: Array = np.sqrt(np.sum(vector * vector, axis=-1))
     return result
+
+
+def _read_columns(name: str, measure: Measure) -> dict[str, float | None]:
+    """Return the newest sample of each column of a measure by name, the first one excluded."""
+    labels = [label.partition(" ")[0] for label in measure.log_header]
+    samples = zip(labels, measure.log_values, strict=True)
+    return {f"{name}_{label}": value for label, value in samples if label != labels[0]}
 
 
 def _newest_sample(measure: Measure) -> float | None:

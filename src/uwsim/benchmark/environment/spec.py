@@ -5,6 +5,8 @@
     <u:environment>
       <vehicle>bluerov2</vehicle> <reference>offset</reference> <period>0.05</period>
       <observation>positionError heading gravity linearVelocity angularVelocity</observation>
+      <relativePose> <name>dock</name> <from>bluerov2</from> <to>dock</to> </relativePose>
+      <contact> <name>touched</name> <target>bluerov2</target> <other>dock</other> </contact>
       <topicField> <topic>/bluerov2/dvl</topic> <field>velocity</field> </topicField>
       <action> <topic>/bluerov2/thrusters</topic> </action>
       <reward>exp(-offset) - 0.01*effort</reward>
@@ -24,6 +26,7 @@ from ..measures import MeasureSpec, PositionErrorSpec, TrackingErrorSpec
 from ..metrics.held_commands import TWIST_UNITS, WRENCH_UNITS
 from ..reference_trajectory import TrajectorySpec
 from .channels import CHANNELS, REFERENCE_CHANNELS
+from .relations import ContactSpec, RelativePoseSpec
 from .reward import REWARD_NAMES
 
 AXES = (*TWIST_UNITS, *WRENCH_UNITS)
@@ -77,13 +80,17 @@ class EnvironmentSpec(Spec):
     observation: str = ""
     """The observed quantities of the vehicle's state, separated by blanks
     (`uwsim.benchmark.environment.channels`)."""
+    relative_pose: tuple[RelativePoseSpec, ...] = ()
+    """The observed poses of bodies in the frames of others, which follow the state."""
+    contact: tuple[ContactSpec, ...] = ()
+    """The observed contacts, which follow the poses."""
     topic_field: tuple[TopicFieldSpec, ...] = ()
-    """The observed numbers of messages, which follow the state."""
+    """The observed numbers of messages, which follow the contacts."""
     action: tuple[ActionSpec, ...]
     """The commands of which an action consists."""
     reward: str = "0"
-    """The reward of a step: an expression of the newest samples of the measures, and of the names
-    of `uwsim.benchmark.environment.reward`."""
+    """The reward of a step: an expression of the newest samples of the measures, of the names of
+    poses and contacts, and of the names of `uwsim.benchmark.environment.reward`."""
     success: str | None = element(default=None)
     """The criterion of success at the end of an episode: an expression of the values of the
     measures; other than 0 is a success. By default the status ``ok`` is a success."""
@@ -92,6 +99,20 @@ class EnvironmentSpec(Spec):
     def channels(self) -> tuple[str, ...]:
         """The names of the observed quantities of the state."""
         return tuple(self.observation.split())
+
+    @property
+    def relations(self) -> tuple[RelativePoseSpec | ContactSpec, ...]:
+        """The observed relations of bodies, in the order of the observation."""
+        return (*self.relative_pose, *self.contact)
+
+    def sample_names(self, measures: Sequence[MeasureSpec]) -> list[str]:
+        """Return the names in a reward besides `REWARD_NAMES`.
+
+        They are those of the measures, of their columns, and of the relations.
+        """
+        columns = [f"{spec.name}_{column}" for spec in measures for column in spec.columns]
+        relations = [spec.name for spec in self.relations]
+        return [*(spec.name for spec in measures), *columns, *relations]
 
     def trajectory(self, measures: Sequence[MeasureSpec]) -> TrajectorySpec | None:
         """Return the desired position at each time; None without a reference."""
@@ -125,8 +146,9 @@ class EnvironmentSpec(Spec):
                 )
             elif channel in REFERENCE_CHANNELS and self.reference is None:
                 yield "observation", f"{channel} in <observation> needs a <reference>"
-        if not self.channels and not self.topic_field:
+        if not self.channels and not self.topic_field and not self.relations:
             yield "observation", "nothing is observed; expected <observation> or <topicField>"
+        yield from self._relation_errors([*names, *REWARD_NAMES])
         if not self.action:
             yield "action", "there is no <action>; expected one at least"
         if self.reference is not None and self.trajectory(measures) is None:
@@ -143,13 +165,27 @@ class EnvironmentSpec(Spec):
             )
         yield from self._action_errors()
         for tag, text, valid_names in (
-            ("reward", self.reward, [*names, *REWARD_NAMES]),
+            ("reward", self.reward, [*self.sample_names(measures), *REWARD_NAMES]),
             ("success", self.success or "0", names),
         ):
             try:
                 parse(text, valid_names)
             except ScoreError as error:
                 yield tag, f"<{tag}>: {error.message} (column {error.column + 1})"
+
+    def _relation_errors(self, other_names: Sequence[str]) -> Iterator[tuple[str, str]]:
+        """Yield the errors of the names of poses and contacts."""
+        taken_names = set(other_names)
+        for spec in self.relations:
+            tag = "relativePose" if isinstance(spec, RelativePoseSpec) else "contact"
+            if not spec.name.isidentifier() or not spec.name.isascii():
+                yield tag, f"<name> is {spec.name[:60]!r}; expected letters, digits and _"
+            elif spec.name in taken_names:
+                yield (
+                    tag,
+                    f"<name> is {spec.name[:60]!r}, which is taken; expected another",
+                )
+            taken_names.add(spec.name)
 
     def _action_errors(self) -> Iterator[tuple[str, str]]:
         for action in self.action:

@@ -13,6 +13,7 @@ from .measure import Measure, MeasureSpec
 from .object_centered_on_cam import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
 from .path_following import PathFollowing, PathFollowingSpec
 from .position_error import PositionError, PositionErrorSpec
+from .reach import Reach, ReachSpec
 from .reconstruction_3d import Reconstruction3D, Reconstruction3DSpec
 from .time import Time, TimeSpec
 from .tracking_error import TrackingError, TrackingErrorSpec
@@ -29,6 +30,7 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "u:control": ControlSpec,
     "u:energy": EnergySpec,
     "u:grasp": GraspSpec,
+    "u:reach": ReachSpec,
     "u:trackingError": TrackingErrorSpec,
 }
 """The spec of each element, in alphabetical order."""
@@ -55,6 +57,8 @@ __all__ = [
     "PathFollowingSpec",
     "PositionError",
     "PositionErrorSpec",
+    "Reach",
+    "ReachSpec",
     "Reconstruction3D",
     "Reconstruction3DSpec",
     "Signal",

@@ -49,6 +49,8 @@ NOT_FOUND = "not found"
 class GraspSpec(MeasureSpec):
     """A ``<u:grasp>`` element of a benchmark file."""
 
+    columns: ClassVar[tuple[str, ...]] = ("height", "force_on_object", "force_on_ground")
+
     target: str = element(refers_to="contacts")
     """The name of the object."""
     vehicle: str = element(refers_to="vehicle")

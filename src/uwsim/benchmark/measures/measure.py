@@ -26,6 +26,9 @@ class MeasureSpec(Spec, abc.ABC):
     """The number that a missing value adds to the sum of error flags of a row (compatibility
     ``rows``: as in the original UWSim, result.dat has only rows whose sum is 0)."""
 
+    columns: ClassVar[tuple[str, ...]] = ()
+    """The names of further numbers of the log that a reward can use, as ``NAME_COLUMN``."""
+
     name: str
     """The name of the column and of the variable in the score function; an identifier."""
     start_on: TriggerSpec = field(default_factory=OnInitSpec)
