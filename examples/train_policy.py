@@ -32,11 +32,11 @@ class Policy:
         return np.tanh(np.sum(self.weights * observation, axis=1))
 
 
-def train(n_generations: int, seed: int) -> tuple[np.ndarray, list[float]]:
+def train(
+    n_generations: int, seed: int, task: str = "uwsim/StationKeeping-v0"
+) -> tuple[np.ndarray, list[float]]:
     """Return the weights, and the mean return of the best policies of each generation."""
-    rows = gymnasium.make_vec(
-        "uwsim.envs:uwsim/StationKeeping-v0", num_envs=N_POLICIES, stepper="rows"
-    )
+    rows = gymnasium.make_vec(f"uwsim.envs:{task}", num_envs=N_POLICIES, stepper="rows")
     rng = np.random.default_rng(seed)
     shape = (*rows.single_action_space.shape, *rows.single_observation_space.shape)
     mean, spread = np.zeros(shape), np.full(shape, 0.5)
@@ -65,10 +65,11 @@ def train(n_generations: int, seed: int) -> tuple[np.ndarray, list[float]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description="Train a policy for station keeping.")
     parser.add_argument("out", type=Path, help="the file of the weights, such as policy.npy")
+    parser.add_argument("--task", default="uwsim/StationKeeping-v0")
     parser.add_argument("--generations", type=int, default=60)
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
-    weights, _ = train(options.generations, options.seed)
+    weights, _ = train(options.generations, options.seed, options.task)
     np.save(options.out, weights)
 
 

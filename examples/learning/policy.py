@@ -1,13 +1,17 @@
-"""A policy of a few layers in numpy, which `ppo.py` and `cem.py` train and ``uwsim bench`` scores.
+"""A policy of a few layers in numpy, which `ppo.py` trains and ``uwsim bench`` scores.
 
     uwsim bench station-keeping --algorithm examples/learning/policy.py:Policy --repeat 6
+    uwsim bench circle --algorithm examples/learning/policy.py:TrainedCircle --repeat 6
 
-`Policy` reads the file ``policy.npz`` of the current folder.
+`Policy` reads the file ``policy.npz`` of the current folder. The others are policies that `ppo.py`
+has trained with the seed 1, in the folder ``policies``.
 """
 
 from pathlib import Path
 
 import numpy as np
+
+TRAINED = Path(__file__).parent / "policies"
 
 
 class Policy:
@@ -26,6 +30,34 @@ class Policy:
             activation = np.tanh(activation @ weight + bias)
         weight, bias = self.layers[-1]
         return np.clip(activation @ weight + bias, -1.0, 1.0)
+
+
+class TrainedStationKeeping(Policy):
+    """A policy for `uwsim/StationKeeping-v0`."""
+
+    def __init__(self):
+        super().__init__(TRAINED / "station-keeping.npz")
+
+
+class TrainedCircle(Policy):
+    """A policy for `uwsim/Circle-v0`."""
+
+    def __init__(self):
+        super().__init__(TRAINED / "circle.npz")
+
+
+class TrainedHelix(Policy):
+    """A policy for `uwsim/Helix-v0`."""
+
+    def __init__(self):
+        super().__init__(TRAINED / "helix.npz")
+
+
+class TrainedLemniscate(Policy):
+    """A policy for `uwsim/Lemniscate-v0`."""
+
+    def __init__(self):
+        super().__init__(TRAINED / "lemniscate.npz")
 
 
 def save_policy(path, layers, mean, deviation):

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import uwsim
+
 FOLDER = Path(__file__).parents[2] / "examples" / "learning"
 
 
@@ -20,6 +22,7 @@ def ppo(monkeypatch: pytest.MonkeyPatch) -> dict[str, object]:
 def test_the_gradients_of_a_network_are_those_of_differences(ppo: dict[str, object]) -> None:
     rng = np.random.default_rng(0)
     network = ppo["Network"]([3, 5, 2], rng, 1.0)  # type: ignore[operator]
+    network.parameters = [np.float64(p) for p in network.parameters]  # for small differences
     x, weight = rng.normal(size=(4, 3)), rng.normal(size=(4, 2))
     _, inputs = network.forward(x)
     gradients = network.backward(inputs, weight)
@@ -61,14 +64,30 @@ def test_a_short_training_writes_a_policy(ppo: dict[str, object], tmp_path: Path
         "uwsim/StationKeeping-v0",
         steps=512,
         rows=8,
-        length=32,
+        length=64,
         seed=1,
-        rate=7e-4,
+        rate=3e-3,
+        current=0.1,
         out=path,
-        options={"stepper": "rows"},
     )
     policy = runpy.run_path(str(FOLDER / "policy.py"))["Policy"](path)
     size = len(policy.mean)
     action = policy(np.zeros(size))
     assert action.shape == (8,)
     assert (np.abs(action) <= 1.0).all()
+
+
+@pytest.mark.slow
+def test_the_trained_policy_is_nearer_to_its_place_than_the_proportional_controller(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.syspath_prepend(str(FOLDER))
+    policy = runpy.run_path(str(FOLDER / "policy.py"))["TrainedStationKeeping"]
+    scores = [
+        uwsim.bench("station-keeping", algorithm=algorithm, levels={"current": [0.2]}).values(
+            "offset"
+        )[0]
+        for algorithm in (policy, "position-p")
+    ]
+    assert scores[0] < 0.5 * scores[1]
+    assert scores[0] < 0.1
