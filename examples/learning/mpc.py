@@ -83,11 +83,12 @@ class Model:
         angle_rates = ca.vertcat(
             p + turn * ca.tan(pitch), q * ca.cos(roll) - r * ca.sin(roll), turn / ca.cos(pitch)
         )
-        added = self._added_mass @ nu
-        linear = self._rigid_mass * velocity + added[:3]
-        angular = self._inertia @ omega + added[3:]
+        added_momentum = self._added_mass @ nu
+        linear = self._rigid_mass * velocity + added_momentum[:3]
+        angular = self._inertia @ omega + added_momentum[3:]
         coriolis = ca.vertcat(
-            ca.cross(omega, linear), ca.cross(omega, angular) + ca.cross(velocity, added[:3])
+            ca.cross(omega, linear),
+            ca.cross(omega, angular) + ca.cross(velocity, added_momentum[:3]),
         )
         drag = (self._linear + self._quadratic * ca.sqrt(nu * nu + 1e-6)) * nu
         down = rotation[2, :].T
@@ -117,20 +118,23 @@ class Planner:
         states = ca.SX.sym("states", 12, HORIZON + 1)
         thrusts = ca.SX.sym("thrusts", n, HORIZON)
         start, disturbance = ca.SX.sym("start", 12), ca.SX.sym("d", 6)
-        references, last = ca.SX.sym("references", 3, HORIZON + 1), ca.SX.sym("last", n)
+        references, last_thrusts = (
+            ca.SX.sym("references", 3, HORIZON + 1),
+            ca.SX.sym("last_thrusts", n),
+        )
         yaw = ca.SX.sym("yaw")
         cost, defects = 0.0, [states[:, 0] - start]
         for k in range(HORIZON):
-            following = model.step(states[:, k], thrusts[:, k], disturbance, STEP)
-            defects.append(states[:, k + 1] - following)
-            before = last if k == 0 else thrusts[:, k - 1]
+            next_state = model.step(states[:, k], thrusts[:, k], disturbance, STEP)
+            defects.append(states[:, k + 1] - next_state)
+            thrusts_before = last_thrusts if k == 0 else thrusts[:, k - 1]
             angles = states[3:6, k + 1] - ca.vertcat(0.0, 0.0, yaw)
             cost += POSITION_WEIGHT * ca.sumsqr(states[:3, k + 1] - references[:, k + 1])
             cost += ANGLE_WEIGHT * ca.sumsqr(angles) + TURN_WEIGHT * ca.sumsqr(states[9:, k + 1])
             cost += THRUST_WEIGHT * ca.sumsqr(thrusts[:, k])
-            cost += CHANGE_WEIGHT * ca.sumsqr(thrusts[:, k] - before)
+            cost += CHANGE_WEIGHT * ca.sumsqr(thrusts[:, k] - thrusts_before)
         plan = ca.vertcat(ca.vec(states), ca.vec(thrusts))
-        parameters = ca.vertcat(start, disturbance, ca.vec(references), last, yaw)
+        parameters = ca.vertcat(start, disturbance, ca.vec(references), last_thrusts, yaw)
         defect = ca.vertcat(*defects)
         hessian, gradient = ca.hessian(cost, plan)
         jacobian = ca.jacobian(defect, plan)
@@ -142,8 +146,8 @@ class Planner:
         options = {"osqp": osqp, "error_on_fail": False}
         self._solver = ca.conic("solver", "osqp", problem, options)
         limit = float(model.thrusts[-1])
-        free = np.full(12 * (HORIZON + 1), np.inf)
-        self._limits = np.concatenate([free, np.full(n * HORIZON, limit)])
+        state_limits = np.full(12 * (HORIZON + 1), np.inf)
+        self._limits = np.concatenate([state_limits, np.full(n * HORIZON, limit)])
         self.plan, self._n = np.zeros(len(self._limits)), n
 
     def improve(self, parameters):
@@ -189,15 +193,15 @@ class Mpc:
         references = self._extrapolate(rotation, parts)
         parameters = [state, self._disturbance, references.ravel(), self._thrusts, [self._yaw]]
         self._thrusts = self._planner.improve(np.concatenate(parameters))
-        following = self._model.step(state, self._thrusts, self._disturbance, PERIOD)
-        self._prediction = np.array(following).ravel()
+        next_state = self._model.step(state, self._thrusts, self._disturbance, PERIOD)
+        self._prediction = np.array(next_state).ravel()
         return self._model.command(self._thrusts)
 
     def _extrapolate(self, rotation, parts):
         """Return the desired positions from the vehicle at the steps of the plan, (steps, 3)."""
         velocity = rotation @ parts.get("referenceVelocity", np.zeros(3))
-        last = velocity if self._reference_velocity is None else self._reference_velocity
-        acceleration = (velocity - last) / PERIOD
+        last_velocity = velocity if self._reference_velocity is None else self._reference_velocity
+        acceleration = (velocity - last_velocity) / PERIOD
         self._reference_velocity = velocity
         times = STEP * np.arange(HORIZON + 1)[:, None]
         offset = rotation @ parts["positionError"]

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-TRAINED = Path(__file__).parent / "policies"
+POLICIES = Path(__file__).parent / "policies"
 
 
 class Policy:
@@ -36,28 +36,28 @@ class TrainedStationKeeping(Policy):
     """A policy for `uwsim/StationKeeping-v0`."""
 
     def __init__(self):
-        super().__init__(TRAINED / "station-keeping.npz")
+        super().__init__(POLICIES / "station-keeping.npz")
 
 
 class TrainedCircle(Policy):
     """A policy for `uwsim/Circle-v0`."""
 
     def __init__(self):
-        super().__init__(TRAINED / "circle.npz")
+        super().__init__(POLICIES / "circle.npz")
 
 
 class TrainedHelix(Policy):
     """A policy for `uwsim/Helix-v0`."""
 
     def __init__(self):
-        super().__init__(TRAINED / "helix.npz")
+        super().__init__(POLICIES / "helix.npz")
 
 
 class TrainedLemniscate(Policy):
     """A policy for `uwsim/Lemniscate-v0`."""
 
     def __init__(self):
-        super().__init__(TRAINED / "lemniscate.npz")
+        super().__init__(POLICIES / "lemniscate.npz")
 
 
 def save_policy(path, layers, mean, deviation):

@@ -116,7 +116,7 @@ class Standardiser:
 
 
 class Rollout:
-    """What the rows saw, did and received in some steps: arrays (steps, rows, ...)."""
+    """The observations, actions and rewards of rows in some steps: arrays (steps, rows, ...)."""
 
     def __init__(self, envs, length, rng):
         self._envs, self._length, self._rng = envs, length, rng
@@ -167,7 +167,7 @@ def train(task, *, steps, rows, length, seed, rate, current, out):
     rng = np.random.default_rng(seed)
     options = {"stepper": "rows", "reward": REWARD, "autoreset_mode": "Disabled"}
     envs = gymnasium.make_vec(f"uwsim.envs:{task}", num_envs=rows, **options)
-    evaluated = gymnasium.make_vec(f"uwsim.envs:{task}", num_envs=N_EVALUATED, **options)
+    test_envs = gymnasium.make_vec(f"uwsim.envs:{task}", num_envs=N_EVALUATED, **options)
     n = envs.single_observation_space.shape[0]
     n_actions = envs.single_action_space.shape[0]
     actor, critic = Network([n, 64, 64, n_actions], rng, 0.1), Network([n, 64, 64, 1], rng, 1.0)
@@ -181,7 +181,7 @@ def train(task, *, steps, rows, length, seed, rate, current, out):
         update(actor, critic, standardise, rollout, rng, rate * (1.0 - iteration / n_iterations))
         standardise.update(rollout.observations.reshape(-1, n))
         if (iteration + 1) % max(1, n_iterations // N_EVALUATIONS) == 0:
-            error = evaluate(evaluated, actor, standardise, current)
+            error = evaluate(test_envs, actor, standardise, current)
             n_steps, seconds = (iteration + 1) * rows * length, time.process_time() - begin
             lines.append(f"{n_steps},{seconds:.1f},{error:.4f}")
             print(f"{n_steps:>9} steps  {seconds:5.0f} s  distance {error:.3f} m", flush=True)
@@ -189,7 +189,7 @@ def train(task, *, steps, rows, length, seed, rate, current, out):
     save_policy(out, actor.layers, standardise.mean, standardise.deviation)
     Path(out).with_suffix(".csv").write_text("\n".join(lines) + "\n")
     envs.close()
-    evaluated.close()
+    test_envs.close()
     return lines
 
 
