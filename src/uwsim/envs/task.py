@@ -160,7 +160,7 @@ def with_environments(plan: Plan, environments: Sequence[EnvironmentSpec]) -> Pl
     if errors := [message for spec in environments for _, message in spec.errors(measures)]:
         raise BadSetting(f"{plan.benchmark.path}: {'; '.join(errors)}.")
     benchmark = replace(plan.benchmark, environments=tuple(environments))
-    return replace(plan, benchmark=benchmark, is_blind=True)
+    return replace(plan, benchmark=benchmark, is_blind=True, records_motion=False)
 
 
 def read_plan(

@@ -105,6 +105,8 @@ class Plan:
     """The folders in which files are searched for (``--data-path``)."""
     is_blind: bool = False
     """True if images are black, as in the control run, whose algorithm (`frozen`) ignores them."""
+    records_motion: bool = True
+    """True if trials record the motion of all bodies; environments for learning do not."""
     inputs: Mapping[int, bytes] = field(default_factory=dict)
     """The recorded inputs of the pilot of an earlier run, which are sent again: the content of a
     file for the index of each trial."""

@@ -33,9 +33,12 @@ class MotionRecorder:
     Args:
         simulation: the simulation; `start` records its first frame.
         measures: the measures of the benchmark, whose true and estimated quadrangles are recorded.
+        is_active: False for a recorder whose track has no frames.
     """
 
-    def __init__(self, simulation: Simulation, measures: Sequence[MeasureSpec]) -> None:
+    def __init__(
+        self, simulation: Simulation, measures: Sequence[MeasureSpec], *, is_active: bool = True
+    ) -> None:
         self._simulation = simulation
         self._state = TrackedState(simulation.world)
         self._cameras = _compared_measures(measures)
@@ -49,11 +52,14 @@ class MotionRecorder:
         self._sand, self._markers = SandLog(simulation), MarkerLog(simulation)
         self._sediment = SedimentLog(simulation)
         self._due = 0
-        simulation.watch(self._update)
+        self._is_active = is_active
+        if is_active:
+            simulation.watch(self._update)
 
     def start(self) -> None:
         """Record the first frame, at step 0."""
-        self._update()
+        if self._is_active:
+            self._update()
 
     def begin_level(self, measures: Iterable[TriggeredMeasure]) -> None:
         """Begin the measurement of a level."""

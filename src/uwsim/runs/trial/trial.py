@@ -153,7 +153,7 @@ class TrialExecution:
         benchmark = benchmark_of_seed(plan.benchmark, trial.seed)
         self._updater = benchmark.scene_updater
         self._fingerprinter = Fingerprinter(simulation)
-        self._motion = MotionRecorder(simulation, benchmark.measures)
+        self._motion = MotionRecorder(simulation, benchmark.measures, is_active=plan.records_motion)
         self._updaters = bind_updaters(self._updater, simulation.world.stage_view)
         if "no-markers" in plan.compatibility:
             simulation.bus.services.withdraw(SPAWN_MARKER)
