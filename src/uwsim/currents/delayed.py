@@ -101,7 +101,8 @@ def flow_delayed(parameters_address: int, query_address: int, time: float) -> No
     current = carray(pointer(parameters_address), (1,), DELAYED_CURRENT)[0]
     elapsed_time = round_to_nanoseconds(time - current.start_time)
     if elapsed_time < current.delay:
-        write_everywhere(carray(pointer(query_address), (1,), QUERY)[0], np.zeros(3), np.zeros(3))
+        query = carray(pointer(query_address), (1,), QUERY)[0]
+        write_everywhere(query, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     else:
         call(
             current.flow.function,

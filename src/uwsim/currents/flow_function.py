@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..base.geometry import Array
+from ..base.geometry import Array, Triple
 from ..base.numerics.calls import address_of, function_address, prepare_nothing
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import view_doubles
@@ -69,7 +69,7 @@ def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
 
 
 @njit
-def write_everywhere(query: Record, velocity: Array, acceleration: Array) -> None:
+def write_everywhere(query: Record, velocity: Array | Triple, acceleration: Array | Triple) -> None:
     """Write a velocity [m/s] and an acceleration [m/s2], (3,) each, for all points of a query."""
     fill(query.velocity, query.n, velocity)
     if query.acceleration != 0:
@@ -80,11 +80,11 @@ def write_everywhere(query: Record, velocity: Array, acceleration: Array) -> Non
 def write_no_acceleration(query: Record) -> None:
     """Write zero accelerations, if the query needs accelerations."""
     if query.acceleration != 0:
-        fill(query.acceleration, query.n, np.zeros(3))
+        fill(query.acceleration, query.n, (0.0, 0.0, 0.0))
 
 
 @njit
-def fill(address: int, n: int, vector: Array) -> None:
+def fill(address: int, n: int, vector: Array | Triple) -> None:
     """Write a vector (3,) n times at an address."""
     vectors = view_doubles(address, 3 * n)
     for i in range(n):

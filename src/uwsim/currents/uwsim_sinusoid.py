@@ -140,6 +140,8 @@ def draw_of(time: float) -> int:
 @njit
 def evaluate_sine(sine: Record, factor: float, time: float) -> tuple[float, float]:
     """Return the value of a `SINE` at a time [s], and its derivative by time, times a factor."""
+    if sine.variation == 0.0:
+        return factor * sine.mean, 0.0
     angle = sine.rate * time
     return (
         factor * (sine.mean + sine.variation * math.sin(angle)),
@@ -168,13 +170,10 @@ def flow_sinusoid(parameters_address: int, query_address: int, time: float) -> N
         speed * sine,
         speed_rate * sine + speed * cosine * theta_rate,
     )
-    velocity, acceleration = np.empty(3), np.empty(3)
-    velocity[0], velocity[1], velocity[2] = (
-        level_speed * x,
-        level_speed * y,
-        speed * cosine,
+    velocity = (level_speed * x, level_speed * y, speed * cosine)
+    acceleration = (
+        level_rate * x - level_speed * y * phi_rate,
+        level_rate * y + level_speed * x * phi_rate,
+        speed_rate * cosine - speed * sine * theta_rate,
     )
-    acceleration[0] = level_rate * x - level_speed * y * phi_rate
-    acceleration[1] = level_rate * y + level_speed * x * phi_rate
-    acceleration[2] = speed_rate * cosine - speed * sine * theta_rate
     write_everywhere(carray(pointer(query_address), (1,), QUERY)[0], velocity, acceleration)
