@@ -17,12 +17,14 @@ from uwsim.benchmark.environment.array_expression import evaluate_rows
 from uwsim.envs import TASKS, RowVectorEnv, make_env
 from uwsim.errors import BadSetting
 
+ROW_TASKS = [f"uwsim/{name}-v0" for name in ("StationKeeping", "Circle", "Helix", "Lemniscate")]
+
 
 def make_rows(task: str, n: int, **options: Any) -> Any:
     return gymnasium.make_vec(task, num_envs=n, stepper="rows", **options)
 
 
-@pytest.mark.parametrize("task", [task for task in TASKS if task != "uwsim/Docking-v0"])
+@pytest.mark.parametrize("task", ROW_TASKS)
 def test_a_row_is_the_environment_of_the_engine(task: str) -> None:
     rows, env = make_rows(task, 2), make_env(TASKS[task])
     options = {"level": {"current": 0.3}}  # which flows from 2 s on
