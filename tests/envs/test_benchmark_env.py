@@ -122,6 +122,64 @@ def test_the_measures_of_an_episode_are_those_of_the_benchmark(tmp_path: Path) -
     assert info["status"] == "ok"
 
 
+BODY = "vehicle[bluerov2].hydrodynamics.body[base_link]"
+THRUSTER = "vehicle[bluerov2].hydrodynamics.thruster[bow_port]"
+RANGES = {
+    f"{BODY}.mass": (12.5, 14.5),
+    f"{BODY}.volume": (0.0132, 0.0136),
+    f"{BODY}.addedMass.1": (5.0, 8.0),
+    f"{BODY}.quadraticDamping.2": (150.0, 250.0),
+    f"{THRUSTER}.forward.1": (8.0, 10.0),
+    f"{THRUSTER}.timeConstant": (0.02, 0.2),
+    "vehicle[bluerov2].virtualCamera[camera].std": (0.0, 0.05),
+    "oceanState.water.exposure": (1.0, 2.0),
+    "currentForceUpdater.timeOffset": (10.0, 20.0),
+    "current": (0.1, 0.3),
+}
+"""A range for each kind of parameter of an episode."""
+
+
+def test_numbers_of_the_scene_are_drawn_from_the_ranges_of_a_reset() -> None:
+    env = make_env("station-keeping")
+    actions = np.tile(np.linspace(-0.8, 0.8, 8), (3, 1)).astype(np.float32)
+    _, info = env.reset(seed=3, options={"level": RANGES})
+    steps = [env.step(action)[0] for action in actions]
+    env.reset(seed=3)  # the next episode has the numbers of the file
+    assert not np.allclose(env.step(actions[0])[0], steps[0])
+    _, other_info = env.reset(seed=4, options={"level": RANGES})
+    env.close()
+    values = info["variations"] | info["level"]
+    for path, (low, high) in RANGES.items():
+        assert low <= values[path] <= high
+        assert values[path] != (other_info["variations"] | other_info["level"])[path]
+    settings = {path: float(values[path]) for path in RANGES if "." in path}
+    twin = make_env("station-keeping", settings=settings)  # as with --set
+    twin.reset(seed=3, options={"level": info["level"]})
+    for action, observation in zip(actions, steps, strict=True):
+        np.testing.assert_array_equal(twin.step(action)[0], observation)
+    twin.close()
+
+
+def test_a_number_of_the_scene_has_the_value_of_a_reset() -> None:
+    path = f"{BODY}.mass"
+    env, twin = make_env("station-keeping"), make_env("station-keeping", settings={path: 15.0})
+    _, info = env.reset(seed=3, options={"level": {"current": 0.1, path: 15}})
+    twin.reset(seed=3, options={"level": {"current": 0.1}})
+    assert info["variations"][path] == 15.0
+    action = np.zeros(8, np.float32)
+    np.testing.assert_array_equal(env.step(action)[0], twin.step(action)[0])
+    for level, message in (
+        ({"vehicle[bluerov2].positon.x": 1.0}, "position"),
+        ({"vehicle[bluerov2].position": 1.0}, "three numbers"),
+        ({"oceanState.water.exposure": (-1.0, 1.0)}, "exposure"),
+        ({"currentForceUpdater.step": (0.1, 0.2)}, "determines the levels"),
+    ):
+        with pytest.raises(BadSetting, match=message):
+            env.reset(options={"level": level})
+    env.close()
+    twin.close()
+
+
 def test_rows_of_a_vector_are_single_environments() -> None:
     envs = gymnasium.make_vec("uwsim/StationKeeping-v0", num_envs=2)
     env = make_env("station-keeping")

@@ -130,6 +130,26 @@ def test_rows_are_reset_as_gymnasium_expects(mode: str) -> None:
     rows.close()
 
 
+def test_other_libraries_share_the_memory_of_observations_that_no_step_changes() -> None:
+    rows = make_rows("uwsim/StationKeeping-v0", 4)
+    observations, _ = rows.reset(seed=1)
+    view = np.from_dlpack(observations)  # as torch.from_dlpack and torch.from_numpy
+    assert np.shares_memory(view, observations)
+    first = view.copy()
+    stepped, rewards, *_ = rows.step(np.full((4, 8), 0.5, np.float32))
+    assert np.shares_memory(np.from_dlpack(rewards), rewards)
+    assert not np.array_equal(stepped, first)
+    np.testing.assert_array_equal(view, first)
+    rows.close()
+
+
+def test_rows_refuse_numbers_of_the_scene() -> None:
+    rows = make_rows("uwsim/StationKeeping-v0", 1)
+    with pytest.raises(BadSetting, match=r"which rows share; expected current, or stepper"):
+        rows.reset(seed=1, options={"level": {"vehicle[bluerov2].position.x": 0.1}})
+    rows.close()
+
+
 def test_a_range_of_currents_is_drawn_for_each_row() -> None:
     rows = make_rows("uwsim/Circle-v0", 8)
     _, infos = rows.reset(seed=1, options={"level": {"current": (0.1, 0.3)}})

@@ -16,8 +16,8 @@ from ..benchmark.environment.observer import MAX_OBSERVATION
 from ..editing import Benchmark, Scene
 from ..errors import BadSetting
 from ..runs.planning.trial_cache import TrialCache
-from .episode import Episode, environment_of
-from .levels import draw_level, read_choices
+from .episode import Episode, environment_of, max_steps_of
+from .levels import draw_level, is_path, read_choices, vary_plan
 from .task import EnvironmentOptions, find_camera, make_task
 
 MAX_SEED = 2**31 - 1
@@ -101,6 +101,11 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         self._camera = find_camera(self._plan, camera)
 
     @property
+    def max_steps(self) -> int:
+        """The number of steps of an episode that nothing ends before its time is over."""
+        return max_steps_of(self._plan)
+
+    @property
     def stepper(self) -> str:
         """The stepper of the environment, and the reason for it."""
         return "engine: the trial of uwsim bench, for any scene and any topic"
@@ -113,8 +118,9 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         Args:
             seed: the seed of the episode, that of ``uwsim bench --seed``; None: the environment
                 draws one.
-            options: ``{"level": {...}}`` with a value or a range for each swept parameter; others
-                are drawn from the levels of the benchmark.
+            options: ``{"level": {...}}`` with a value or a range for each swept parameter, or for
+                the path of a number of the scene; other swept parameters are drawn from the
+                levels of the benchmark.
 
         Returns:
             The observation, and ``info`` with ``seed``, ``level`` and ``variations``.
@@ -163,13 +169,16 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
     def _begin(self, seed: int, choices: Mapping[str, float | tuple[float, float]]) -> Episode:
         self._seed = seed
         self._level = draw_level(self._plan.benchmark.scene_updater, seed, choices)
-        return Episode(self._plan, seed, self._level, self._cache)
+        self._variations = {path: value for path, value in choices.items() if is_path(path)}
+        plan = vary_plan(self._plan, choices)
+        self._variations |= {draw.path: draw.value for draw in plan.draws(seed)}
+        return Episode(plan, seed, self._level, self._cache)
 
     def _info(self) -> dict[str, Any]:
         """Return the seed and the level and, at the end, the result of the benchmark."""
         return {
             "seed": self._seed,
             "level": dict(self._level.values),
-            "variations": {draw.path: draw.value for draw in self._plan.draws(self._seed)},
+            "variations": dict(self._variations),
             **({} if self._episode is None else self._episode.result()),
         }

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from ..base.expression import parse
 from ..base.geometry import Array
 from ..benchmark.environment import EnvironmentSpec, RewardFunction
+from ..benchmark.spec import MAX_TASK_DURATION
 from ..benchmark.updaters import Level, interval
 from ..errors import BadSetting
 from ..runs.planning.plan import Plan
@@ -187,3 +188,9 @@ def environment_of(plan: Plan) -> EnvironmentSpec:
     if plan.benchmark.environment is None:
         raise BadSetting(f"{plan.benchmark.path}: the benchmark has no <u:environment>.")
     return plan.benchmark.environment
+
+
+def max_steps_of(plan: Plan) -> int:
+    """Return the number of steps of an episode that nothing ends before its time is over."""
+    length = interval(plan.benchmark.scene_updater) or MAX_TASK_DURATION
+    return max(1, round(length / environment_of(plan).period))

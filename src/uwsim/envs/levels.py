@@ -3,17 +3,33 @@
 The value of a swept parameter is one of the benchmark's levels, drawn from the stream
 ``environment/level/<name>`` of the episode's seed. ``options={"level": {"current": 0.15}}`` sets
 it, and ``{"current": (0.0, 0.3)}`` draws it uniformly from a range.
+
+A path to a number of the scene or of an updater, as ``--set`` names it, is a parameter, too:
+``{"vehicle[bluerov2].hydrodynamics.body[base_link].mass": (12.5, 14.5)}``. A value is that of
+``--set``, and a range is a ``<u:uniform>`` of ``<u:vary>`` for the episode.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 from ..base.external_values import finite_float
 from ..base.rng import stream
+from ..benchmark.updater_settings import (
+    check_same_levels,
+    is_updater_path,
+    locate_in_benchmark,
+)
 from ..benchmark.updaters import Level, SceneUpdaterSpec, chain, swept_parameters
 from ..errors import BadSetting, did_you_mean, short_repr
+from ..runs.planning.plan import Plan
+from ..scene.settings import locate, overlaps
+from ..scene.variation import Find, UniformSpec, check_variations
+from ..schema import Diagnostics
 
 Value = float | tuple[float, float]
 """A value, or the bounds of a range from which it is drawn."""
@@ -44,8 +60,63 @@ def draw_level(updater: SceneUpdaterSpec, seed: int, choices: Mapping[str, Value
     return Level(tuple(values))
 
 
-def read_choices(updater: SceneUpdaterSpec, options: Mapping[str, Any] | None) -> dict[str, Value]:
+def vary_plan(plan: Plan, choices: Mapping[str, Value]) -> Plan:
+    """Return the plan of an episode, with the chosen values and ranges of paths.
+
+    Raises:
+        BadSetting: a path leads to no number, or a value is invalid.
+    """
+    scene, benchmark = plan.scene, plan.benchmark
+    for path, value in choices.items():
+        if not is_path(path):
+            continue
+        try:
+            if is_updater_path(benchmark, path):
+                check = partial(check_same_levels, plan.benchmark)
+                benchmark = _vary(benchmark, path, value, locate_in_benchmark, check)
+            else:
+                scene = _vary(scene, path, value, locate, lambda _: None)
+        except BadSetting as error:
+            raise BadSetting(f"options['level'][{path!r}]: {error}") from None
+    return replace(plan, scene=scene, benchmark=benchmark)
+
+
+def _vary(
+    spec: Any, path: str, value: Value, find: Find, check_bound: Callable[[Any], None]
+) -> Any:
+    """Return a spec in which a number has a value, or is drawn from a range."""
+    location = find(spec, path)
+    others = tuple(v for v in spec.vary if not overlaps(find(spec, v.path), location))
+    if not isinstance(value, tuple):
+        if not location.is_number:
+            raise BadSetting(f"it is {location.kind}; expected the path of one number.")
+        new_spec = location.with_value(repr(value))
+        check_bound(new_spec)
+        return replace(new_spec, vary=others)
+    low, high = value
+    variation = UniformSpec(path=path, low=low, high=high)
+    diagnostics = Diagnostics(Path("options"))
+    new_spec = replace(spec, vary=(variation,))
+    check_variations(new_spec, diagnostics, find=find, check_bound=check_bound)
+    for diagnostic in diagnostics.to_list():
+        raise BadSetting(diagnostic.message)
+    return replace(new_spec, vary=(*others, variation))
+
+
+def is_path(name: str) -> bool:
+    """Return whether the name of a parameter is a path to a number of the scene or an updater."""
+    return "." in name
+
+
+def read_choices(
+    updater: SceneUpdaterSpec, options: Mapping[str, Any] | None, *, has_paths: bool = True
+) -> dict[str, Value]:
     """Return the values and ranges in the options of ``reset``.
+
+    Args:
+        updater: the outermost updater of the benchmark.
+        options: the options of ``reset``.
+        has_paths: true if parameters may be paths to numbers of the scene.
 
     Raises:
         BadSetting: a key or a parameter is unknown, or a value is neither a number nor a range.
@@ -62,7 +133,12 @@ def read_choices(updater: SceneUpdaterSpec, options: Mapping[str, Any] | None) -
     names = swept_parameters(updater)
     choices: dict[str, Value] = {}
     for name, value in level.items():
-        if name not in names:
+        if is_path(str(name)) and not has_paths:
+            raise BadSetting(
+                f"{short_repr(name)} is a number of the scene, which rows share; expected "
+                f"{', '.join(names)}, or stepper='engine'."
+            )
+        if name not in names and not is_path(str(name)):
             raise BadSetting(
                 f"The benchmark sweeps no parameter {short_repr(name)}."
                 f"{did_you_mean(str(name), names)} Known: {', '.join(names)}."
@@ -86,4 +162,4 @@ def _read_value(name: str, value: Any) -> Value:
     low, high = numbers[0], numbers[1]
     if low > high:
         raise BadSetting(f"The range of {name!r} is {low:g} to {high:g}; expected low to high.")
-    return (low, high) if isinstance(value, tuple | list) else low
+    return (low, high) if low < high else low

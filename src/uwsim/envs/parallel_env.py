@@ -18,7 +18,7 @@ from ..errors import BadSetting, UnknownName, did_you_mean
 from ..runs.planning.trial_cache import TrialCache
 from .benchmark_env import MAX_SEED, Action
 from .episode import Episode
-from .levels import OPTIONS, draw_level, read_choices
+from .levels import OPTIONS, draw_level, is_path, read_choices, vary_plan
 from .task import AgentOptions, EnvironmentOptions, find_camera, make_agents_task
 
 
@@ -185,7 +185,10 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
     def _begin(self, seed: int, choices: Mapping[str, float | tuple[float, float]]) -> Episode:
         self._seed = seed
         self._level = draw_level(self._plan.benchmark.scene_updater, seed, choices)
-        return Episode(self._plan, seed, self._level, self._cache)
+        self._variations = {path: value for path, value in choices.items() if is_path(path)}
+        plan = vary_plan(self._plan, choices)
+        self._variations |= {draw.path: draw.value for draw in plan.draws(seed)}
+        return Episode(plan, seed, self._level, self._cache)
 
     def _observe(self, episode: Episode) -> dict[str, Array]:
         return dict(zip(self.possible_agents, episode.observe(), strict=True))
@@ -196,7 +199,7 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
             agent: {
                 "seed": self._seed,
                 "level": dict(self._level.values),
-                "variations": {draw.path: draw.value for draw in self._plan.draws(self._seed)},
+                "variations": dict(self._variations),
                 **episode.result(i),
             }
             for i, agent in enumerate(self.possible_agents)

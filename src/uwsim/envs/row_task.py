@@ -23,7 +23,6 @@ from ..benchmark.updaters import (
     RepeatSpec,
     SeaStateUpdaterSpec,
     chain,
-    interval,
 )
 from ..devices.battery import BatterySpec
 from ..errors import BadSetting
@@ -36,13 +35,11 @@ from ..runs.planning.trial_cache import compile_plan
 from ..scene.variation import apply_variations
 from ..topics.thruster_commands import ROSThrustersToPATSpec
 from .batch.flows import n_bodies
-from .episode import environment_of
+from .episode import environment_of, max_steps_of
 from .row_water import WATER_PATHS, RowWater
 
 UPDATERS = (CurrentForceUpdaterSpec, SeaStateUpdaterSpec, NoneSpec, RepeatSpec)
 """The updaters whose levels rows can have."""
-MAX_EPISODE = 600.0
-"""The length of an episode without an interval [s]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -92,9 +89,8 @@ def plan_rows(plan: Plan, model: SceneModel) -> RowPlan:
     index = [vehicle.name for vehicle in model.scene.vehicles].index(spec.vehicle)
     root = model.engine_model.body(vehicle_body(index, model.robots[index].root)).id
     vehicle = free_vehicle(model.engine_model, root)
-    length = interval(plan.benchmark.scene_updater) or MAX_EPISODE
     substeps = max(1, round(spec.period / plan.timestep))
-    max_steps = max(1, round(length / spec.period))
+    max_steps = max_steps_of(plan)
     n_steps = substeps * max_steps
     water = RowWater(plan, model, spec.vehicle, n_bodies=n_bodies(vehicle), n_steps=n_steps)
     _refuse(plan, [*water.reasons(), *_find_variations(plan, spec.vehicle, vehicle, root)])

@@ -114,7 +114,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
         mask = np.array(options.pop("reset_mask", np.ones(self.num_envs)), dtype=np.bool_)
         if mask.shape != (self.num_envs,):
             raise BadSetting(f"reset_mask has the shape {mask.shape}; expected {self.num_envs}.")
-        choices = read_choices(self._plan.benchmark.scene_updater, options)
+        choices = read_choices(self._plan.benchmark.scene_updater, options, has_paths=False)
         seeds = (
             list(seed)
             if isinstance(seed, Sequence)
