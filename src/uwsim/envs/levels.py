@@ -86,13 +86,13 @@ def _vary(
 ) -> Any:
     """Return a spec in which a number has a value, or is drawn from a range."""
     location = find(spec, path)
-    others = tuple(v for v in spec.vary if not overlaps(find(spec, v.path), location))
+    other_variations = tuple(v for v in spec.vary if not overlaps(find(spec, v.path), location))
     if not isinstance(value, tuple):
         if not location.is_number:
             raise BadSetting(f"it is {location.kind}; expected the path of one number.")
         new_spec = location.with_value(repr(value))
         check_bound(new_spec)
-        return replace(new_spec, vary=others)
+        return replace(new_spec, vary=other_variations)
     low, high = value
     variation = UniformSpec(path=path, low=low, high=high)
     diagnostics = Diagnostics(Path("options"))
@@ -100,7 +100,7 @@ def _vary(
     check_variations(new_spec, diagnostics, find=find, check_bound=check_bound)
     for diagnostic in diagnostics.to_list():
         raise BadSetting(diagnostic.message)
-    return replace(new_spec, vary=(*others, variation))
+    return replace(new_spec, vary=(*other_variations, variation))
 
 
 def is_path(name: str) -> bool:
