@@ -22,7 +22,7 @@ DESCRIPTIONS = {
     "Lemniscate": "Follow the place that moves on a figure of eight.",
     "Docking": "Enter the dock.",
 }
-"""What each task asks of a policy."""
+"""The instruction of each task."""
 
 
 class LeRobotTask(gymnasium.Wrapper):
