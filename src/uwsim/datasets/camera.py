@@ -14,6 +14,7 @@ from ..cameras.lens import Lens
 from ..cameras.noise_words import frame_key
 from ..cameras.response import Pixels
 from ..errors import BadSetting
+from ..rendering.rendered_image import RenderedImage
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from .request import DatasetRequest
@@ -33,8 +34,14 @@ class DatasetCamera:
     intrinsics: Intrinsics
     """The pinhole model and the lens."""
 
-    def take(self, simulation: Simulation, pose: Pose, rng: np.random.Generator) -> Pixels:
-        """Take an image from a pose in W (OpenGL axes), (h, w, 3), or (h, w) if it is grey."""
+    def take(
+        self, simulation: Simulation, pose: Pose, rng: np.random.Generator
+    ) -> tuple[Pixels, RenderedImage]:
+        """Take an image from a pose in W (OpenGL axes), with ranges and part numbers.
+
+        Returns:
+            The pixels, (h, w, 3), or (h, w) if they are grey, and the ranges and numbers.
+        """
         spec, scenery = self.spec, simulation.world.scenery
         is_polished = spec.quality == "polished"
         if spec.response is None:
@@ -60,7 +67,7 @@ class DatasetCamera:
                 is_grey=spec.grayscale,
                 is_polished=is_polished,
             )
-        return scenery.render(exposure)
+        return scenery.render_labelled(exposure)
 
     def _find_noise(self, simulation: Simulation) -> float:
         """Return the standard deviation of the noise, which scene updaters may set [1]."""

@@ -15,6 +15,27 @@ from .pixel_counts import round_millimetres
 
 JPEG_QUALITY = 95
 """The quality of JPEG images, 0 to 100."""
+COLOUR_PNG = (
+    cv2.IMWRITE_PNG_STRATEGY,
+    cv2.IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY,
+    cv2.IMWRITE_PNG_FILTER,
+    cv2.IMWRITE_PNG_FILTER_SUB,
+)
+"""The compression of colours: noise and particles have few repeated bytes to search for."""
+DEPTH_PNG = (
+    cv2.IMWRITE_PNG_STRATEGY,
+    cv2.IMWRITE_PNG_STRATEGY_DEFAULT,
+    cv2.IMWRITE_PNG_FILTER,
+    cv2.IMWRITE_PNG_FILTER_SUB,
+)
+"""The compression of depths, whose differences repeat on planes."""
+MASK_PNG = (
+    cv2.IMWRITE_PNG_STRATEGY,
+    cv2.IMWRITE_PNG_STRATEGY_DEFAULT,
+    cv2.IMWRITE_PNG_FILTER,
+    cv2.IMWRITE_PNG_FILTER_NONE,
+)
+"""The compression of masks, whose rows repeat."""
 MAX_DEPTH_MM = np.float32(65535.0)
 """The greatest depth in a 16-bit image [mm]; greater depths are stored as this number."""
 SONAR_FOLDERS = ("images", "instances", "classes")
@@ -28,14 +49,19 @@ SUFFIXES = {"png": ".png", "jpeg": ".jpg"}
 def encode_colour(pixels: npt.NDArray[np.uint8], encoding: str) -> bytes:
     """Return the file of a colour image (h, w, 3) or a grey one (h, w)."""
     if encoding == "png":
-        return encode_png(pixels)
+        return encode_png(pixels, COLOUR_PNG)
     image = pixels if pixels.ndim == 2 else cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR)
     return cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])[1].tobytes()
 
 
-def depth_millimetres(depth: npt.NDArray[np.float32]) -> npt.NDArray[np.uint16]:
-    """Return depths [m] as millimetres, rounded to nearest; 0: no surface."""
-    return round_millimetres(depth, MAX_DEPTH_MM)
+def encode_depth(depth: npt.NDArray[np.float32]) -> bytes:
+    """Return the file of depths (h, w) [m]: millimetres, rounded to nearest; 0: no surface."""
+    return encode_png(round_millimetres(depth, MAX_DEPTH_MM), DEPTH_PNG)
+
+
+def encode_mask(mask: npt.NDArray[np.uint8] | npt.NDArray[np.uint16]) -> bytes:
+    """Return the file of a mask, (h, w)."""
+    return encode_png(mask, MASK_PNG)
 
 
 def file_paths(index: int, encoding: str, folders: Sequence[str] = FOLDERS) -> dict[str, str]:

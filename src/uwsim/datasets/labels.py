@@ -49,15 +49,14 @@ class ImageLabels:
 
 
 def label_image(
-    simulation: Simulation, table: InstanceTable, pose: Pose, intrinsics: Intrinsics
+    simulation: Simulation, table: InstanceTable, pose: Pose, image: RenderedImage
 ) -> ImageLabels:
-    """Render the labels of an image from a pose in W (OpenGL axes)."""
-    image = simulation.world.scenery.render_clean(pose, intrinsics, targets={"ids", "range"})
+    """Return the labels of an image with ranges and part numbers; poses have OpenGL axes in W."""
     assert image.ids is not None
     masks = number_image(
         image.ids, table.instance_numbers, table.class_numbers, len(table.instances) + 1
     )
-    silhouettes = measure_silhouettes(simulation, table, pose, intrinsics)
+    silhouettes = measure_silhouettes(simulation, table, pose, image.intrinsics)
     depth = image.depth
     return ImageLabels(
         instance_mask=masks.instance_mask,

@@ -276,10 +276,15 @@ def _check_disk(request: DatasetRequest) -> None:
     free_bytes = shutil.disk_usage(existing_folder).free
     if size > free_bytes:
         raise BadSetting(
-            f"--out {request.out}: {n_missing} images take about {size / 1e9:.1f} GB, and "
-            f"{free_bytes / 1e9:.1f} GB are free. Make "
+            f"--out {request.out}: {n_missing} images take about {_format_size(size)}, and "
+            f"{_format_size(free_bytes)} are free. Make "
             "fewer or smaller images, or use --encoding jpeg."
         )
+
+
+def _format_size(n_bytes: float) -> str:
+    """Return a size in GB, or in MB below one GB."""
+    return f"{n_bytes / 1e9:.1f} GB" if n_bytes >= 1e9 else f"{n_bytes / 1e6:.1f} MB"
 
 
 def estimate_bytes(request: DatasetRequest, n_images: int) -> float:

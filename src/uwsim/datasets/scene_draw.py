@@ -15,7 +15,6 @@ from ..base.rng import stream
 from ..benchmark.spec import BenchmarkSpec
 from ..benchmark.updater_settings import benchmark_of_seed, updater_draws
 from ..benchmark.updaters import SceneUpdater, bind_updaters, levels, ramp_level
-from ..messages.compressed import encode_png
 from ..model.scene_model import SceneModel
 from ..physics.compile_scene import compile_scene
 from ..scene.spec import SceneSpec
@@ -23,7 +22,14 @@ from ..scene.variation import draw
 from ..simulation import Simulation
 from ..simulation.scenery.renderer_pool import RendererPool
 from .camera import DatasetCamera, make_camera
-from .image_files import SONAR_FOLDERS, depth_millimetres, encode_colour, file_paths, write_file
+from .image_files import (
+    SONAR_FOLDERS,
+    encode_colour,
+    encode_depth,
+    encode_mask,
+    file_paths,
+    write_file,
+)
 from .instances import InstanceTable, find_instances
 from .labels import label_image, round_values
 from .request import DatasetRequest
@@ -138,14 +144,14 @@ class SceneDraw:
         if self._sonar is not None:
             return self._write_ping(index, level, viewpoint, self._sonar)
         pose = viewpoint.world_from_camera
-        pixels = self._camera.take(simulation, pose, self._stream(index, "noise"))
-        labels = label_image(simulation, self.table, pose, self._camera.intrinsics)
+        pixels, image = self._camera.take(simulation, pose, self._stream(index, "noise"))
+        labels = label_image(simulation, self.table, pose, image)
         paths = file_paths(index, request.encoding)
         contents = {
             "images": encode_colour(pixels.astype(np.uint8, copy=False), request.encoding),
-            "depth": encode_png(depth_millimetres(labels.depth)),
-            "instances": encode_png(labels.instance_mask),
-            "classes": encode_png(labels.class_mask),
+            "depth": encode_depth(labels.depth),
+            "instances": encode_mask(labels.instance_mask),
+            "classes": encode_mask(labels.class_mask),
         }
         for folder, content in contents.items():
             write_file(request.out / paths[folder], content)
@@ -167,8 +173,8 @@ class SceneDraw:
         labels = label_ping(self._simulation, self.table, sonar, pose)
         contents = {
             "images": encode_colour(pixels, self._request.encoding),
-            "instances": encode_png(labels.instance_mask),
-            "classes": encode_png(labels.class_mask),
+            "instances": encode_mask(labels.instance_mask),
+            "classes": encode_mask(labels.class_mask),
         }
         for folder, content in contents.items():
             write_file(self._request.out / paths[folder], content)

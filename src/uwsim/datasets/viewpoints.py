@@ -185,6 +185,9 @@ class ViewpointSampler:
         ids = self._table.instance_numbers
         surfaces = np.where((hits.surface >= 0) & (hits.surface < len(ids)), hits.surface, 0)
         is_hit = np.isfinite(hits.distance) & (ids[surfaces] == target.number)
+        share = float(is_hit.mean())
+        if share < self._request.min_visibility:
+            return share
         # the same ray backwards: a surface that is met only so encloses the camera
         for index in np.flatnonzero(is_hit)[:4].tolist():
             start = eye + directions[index] * (hits.distance[index] - HIT_TOLERANCE)
@@ -195,4 +198,4 @@ class ViewpointSampler:
             )
             if np.isfinite(back.distance).any():
                 return 0.0
-        return float(is_hit.mean())
+        return share

@@ -26,9 +26,16 @@ def as_jpeg(image: Image) -> CompressedImage:
     return _compress(image, "jpeg", (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
 
 
-def encode_png(pixels: npt.NDArray[np.uint8] | npt.NDArray[np.uint16]) -> bytes:
-    """Return a PNG file of colours (h, w, 3) or of values (h, w), of 8 or 16 bit."""
-    return _encode(pixels, "png", ()).tobytes()
+def encode_png(
+    pixels: npt.NDArray[np.uint8] | npt.NDArray[np.uint16], options: Sequence[int] = ()
+) -> bytes:
+    """Return a PNG file of colours (h, w, 3) or of values (h, w), of 8 or 16 bit.
+
+    Args:
+        pixels: the numbers of the pixels.
+        options: OpenCV's options of the compression; any keep the numbers of the pixels.
+    """
+    return _encode(pixels, "png", options).tobytes()
 
 
 def _compress(image: Image, name: str, options: Sequence[int]) -> CompressedImage:

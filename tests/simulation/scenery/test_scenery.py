@@ -10,6 +10,7 @@ import pytest
 
 from tests.simulation.small_robots import begin, joint, scene_of, shape, write_robot
 from uwsim.base.geometry import Intrinsics, Pose
+from uwsim.cameras.exposure import PlainExposure
 from uwsim.model.parts import visual_model
 from uwsim.rendering.renderer import RenderedImage
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
@@ -191,3 +192,33 @@ def test_scenes_of_the_original_have_no_sun_shadows_unless_they_ask_for_them(
 def test_no_shape_of_a_urdf_is_an_input_without_a_hash(tmp_path: Path) -> None:
     simulation, _ = seen(tmp_path, f'<link name="base">{shape()}</link>')
     assert simulation.world.scenery.generated_hashes == {}
+
+
+@pytest.mark.parametrize("std", [0.0, 0.02])
+@pytest.mark.parametrize("is_polished", [False, True])
+def test_labels_drawn_with_the_colours_are_those_drawn_alone(
+    tmp_path: Path, std: float, is_polished: bool
+) -> None:
+    box = shape(xyz="0 0.3 0", size=(0.5, 0.8, 0.8), colour="1 0 0 1")
+    robot = write_robot(tmp_path, f'<link name="base">{box}</link>')
+    simulation = begin(scene_of(VehicleSpec(name="r", file=str(robot), position=(3.0, 0.0, 0.0))))
+    scenery = simulation.world.scenery
+
+    def exposure() -> PlainExposure:
+        return PlainExposure(
+            world_from_camera=AHEAD,
+            intrinsics=LENS,
+            std=std,
+            rng=np.random.default_rng(1),
+            is_grey=False,
+            is_polished=is_polished,
+        )
+
+    pixels, image = scenery.render_labelled(exposure())
+    alone = scenery.render_clean(AHEAD, LENS, targets={"ids", "range"})
+    assert np.array_equal(pixels, scenery.render(exposure()))
+    assert image.ids is not None
+    assert set(np.unique(image.ids)) == {0, 1}
+    assert np.array_equal(image.ids, alone.ids)
+    assert np.array_equal(image.range, alone.range)
+    simulation.close()

@@ -12,8 +12,7 @@ import numpy.typing as npt
 from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.linear import product
 from ...base.record import Record
-from ...cameras.digital_numbers import light_table
-from ...cameras.exposure import Displacement, Exposure, PlainExposure, take_image
+from ...cameras.exposure import Displacement, Exposure, PlainExposure
 from ...cameras.lens_image import map_lens
 from ...cameras.response import Pixels
 from ...devices.lamp import MAX_LAMPS, MountedLamp
@@ -23,14 +22,13 @@ from ...errors import UwsimError
 from ...model.parts import Part
 from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
-from ...rendering.grey import grey_truncated
 from ...rendering.lights.projector import Projector
-from ...rendering.noise import add_noise
 from ...rendering.physical.moving_surface import MovingSurface
 from ...rendering.physical.view import ViewContents
 from ...rendering.rendered_image import ImageModel, RenderedImage
 from ...rendering.smoothing import find_means
 from ...rendering.water import Light, Water
+from .camera_image import map_image, take_pixels
 from .heap_models import HeapModels
 from .light_sources import has_sun_shadows, make_lamp, make_projector
 from .part_names import find_generated_hashes, name_parts
@@ -39,7 +37,6 @@ from .renderer_pool import RendererPool
 from .sand import HeapState, make_heaps
 from .scene_particles import ParticlesState, SceneParticles
 from .scene_water import choose_water, make_water, set_exposure
-from .through_lens import map_image
 
 if TYPE_CHECKING:
     from ...rendering.renderer import Renderer
@@ -171,43 +168,44 @@ class Scenery:
 
     def render(self, exposure: Exposure | PlainExposure) -> Pixels:
         """Take the image of a camera, (h, w, 3), or (h, w) if it is grey."""
-        if isinstance(exposure, Exposure):
-            return self._expose(exposure)
-        image = self._draw_smooth(
-            exposure.world_from_camera,
-            exposure.intrinsics,
-            self.state.water,
-            light=self._light(is_polished=exposure.is_polished),
-            colour="linear16" if exposure.std > 0.0 else "uint8",
-            samples=POLISHED_SAMPLES if exposure.is_polished else 1,
-        )
-        assert image.colour is not None
-        if image.colour.dtype == np.uint16:
-            pixels = add_noise(image.colour.view(np.uint16), exposure.std, exposure.rng)
-        else:
-            pixels = image.colour.view(np.uint8)
-        return grey_truncated(pixels) if exposure.is_grey else pixels
+        return self.render_labelled(exposure, frozenset())[0]
 
-    def _expose(self, exposure: Exposure) -> Pixels:
-        """Take an image with a response; colours of the fog law are light by the sRGB curve."""
-        water = self.state.water.physical_water
+    def render_labelled(
+        self,
+        exposure: Exposure | PlainExposure,
+        labels: frozenset[str] = ALL_TARGETS - {"colour"},
+    ) -> tuple[Pixels, RenderedImage]:
+        """Take the image of a camera, and the range and part number of each pixel.
 
-        def draw_light(pose: Pose, displacement: Displacement | None) -> npt.NDArray[np.float32]:
+        They are drawn with the colours where these have one sample a pixel. They are those of the
+        last time of the shutter: use it for cameras at rest.
+        """
+        samples = POLISHED_SAMPLES if exposure.is_polished else 1
+        targets = labels | {"colour"} if samples == 1 else frozenset({"colour"})
+        images: list[RenderedImage] = []
+
+        def draw(
+            pose: Pose, colour: str, displacement: Displacement | None = None
+        ) -> npt.NDArray[np.generic]:
             image = self._draw_smooth(
                 pose,
                 exposure.intrinsics,
                 self.state.water,
                 light=self._light(is_polished=exposure.is_polished),
-                colour="linear16" if water is None else "light",
-                samples=POLISHED_SAMPLES if exposure.is_polished else 1,
+                samples=samples,
+                targets=targets,
+                colour=colour,
                 displacement=displacement,
             )
+            images.append(image)
             assert image.colour is not None
-            light = light_table()[image.colour] if water is None else image.colour
-            return light.view(np.float32)
+            return image.colour
 
-        return take_image(
-            exposure, draw_light, self.depth, 1.0 if water is None else water.exposure
+        pixels = take_pixels(exposure, draw, self.depth, self.state.water.physical_water)
+        if labels <= targets:
+            return pixels, images[-1]
+        return pixels, self.render_clean(
+            exposure.world_from_camera, exposure.intrinsics, targets=labels
         )
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
