@@ -92,7 +92,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "editing": TASKS | ENGINES | {"checks", "editing"},
     "envs": TASKS | ENGINES | {"checks", "editing", "runs", "viewer", "envs"},
     "manoeuvres": TASKS | ENGINES | {"analysis", "manoeuvres"},
-    "datasets": (TASKS | ENGINES | {"runs", "analysis", "middleware", "viewer", "datasets"}),
+    "datasets": (
+        TASKS | ENGINES | {"runs", "analysis", "middleware", "viewer", "envs", "datasets"}
+    ),
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "campaigns": TASKS | {"runs", "verify", "campaigns"},

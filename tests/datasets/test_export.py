@@ -210,4 +210,4 @@ def test_rows_of_a_result_are_a_table(tmp_path: Path, capfd: pytest.CaptureFixtu
     texts = ["" if cell is None else str(cell) for cell in result.rows[0]]
     assert list(row.values()) == texts
     assert main(["export", str(tmp_path / "one.result"), "--minari"]) == 2
-    assert "is a result" in capfd.readouterr().err
+    assert "has no <u:environment>" in capfd.readouterr().err

@@ -72,6 +72,21 @@ class Episode:
         return [channel.observer.layout for channel in self._channels]
 
     @property
+    def action_layouts(self) -> list[tuple[tuple[str, int], ...]]:
+        """The topic and the number of commands of each part of an action of each agent."""
+        return [channel.actuator.layout for channel in self._channels]
+
+    @property
+    def has_acted(self) -> bool:
+        """True if an action of each agent was applied."""
+        return all(channel.has_acted for channel in self._channels)
+
+    @property
+    def last_actions(self) -> list[Array]:
+        """The last action of each agent that was applied, (n,); 0 before the first."""
+        return [channel.last_action for channel in self._channels]
+
+    @property
     def n_actions(self) -> list[int]:
         """The number of numbers of an action of each agent."""
         return [channel.actuator.size for channel in self._channels]
@@ -85,9 +100,13 @@ class Episode:
 
         At the end of the level, `row` is set.
         """
-        last_actions = [channel.last_action for channel in self._channels]
         for channel, action in zip(self._channels, actions, strict=True):
             channel.set_action(action)
+        return self.follow()
+
+    def follow(self) -> list[float]:
+        """Run the plan's algorithm until the next observation is due; return the rewards."""
+        last_actions = self.last_actions
         measures = {m.spec.name: m.measure for m in self._execution.active_measures}
         self._advance()
         measures |= {m.spec.name: m.measure for m in self._execution.active_measures}

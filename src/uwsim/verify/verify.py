@@ -66,8 +66,8 @@ def complete_trials(directory: Path, plan: Plan, result: Result) -> list[Trial]:
         files = [journal.path_of(directory, trial.index) for trial in trials]
         ends = [journal.read_any(file)[1].end for file in files]
         return [trial for trial, end in zip(trials, ends, strict=True) if end is not None]
-    rows = _rows_by_level(result, plan)
-    return [trial for trial in trials if all(key in rows for key in _row_keys(trial))]
+    rows = rows_by_level(result, plan)
+    return [trial for trial in trials if all(key in rows for key in row_keys(trial))]
 
 
 def choose_trials(trials: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
@@ -190,12 +190,12 @@ def _check_tracks(report: Verification, directory: Path, plan: Plan) -> None:
 
 def _incomplete_trials(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
     """Return the trials with rows in ``result.json`` that their journals lack, with the reason."""
-    rows = _rows_by_level(result, plan)
+    rows = rows_by_level(result, plan)
     incomplete_trials = {}
     for trial in plan.trials():
         file = journal.path_of(directory, trial.index)
         n_stored = len(journal.read_any(file)[1].rows) if file.is_file() else 0
-        n_rows = sum(key in rows for key in _row_keys(trial))
+        n_rows = sum(key in rows for key in row_keys(trial))
         if n_stored < n_rows:
             name = f"trial {trial.index} (seed {trial.seed})"
             reason = f"{n_stored} rows can be read" if file.exists() else "is absent"
@@ -281,13 +281,13 @@ def _end(content: journal.StoredTrial) -> Record:
 def _check_rows(report: Verification, result: Result, replay: Run) -> None:
     """Compare replayed rows with the rows of ``result.json``, for a result without journals."""
     new_result = replay.write()
-    expected = _rows_by_level(result, replay.plan)
+    expected = rows_by_level(result, replay.plan)
     names = {column.name for column in result.columns}
-    replayed_keys = {key for trial in replay.plan.trials() for key in _row_keys(trial)}
+    replayed_keys = {key for trial in replay.plan.trials() for key in row_keys(trial)}
     n = len(replayed_keys & expected.keys())
     if len(result.rows) > n:
         report.add("result.json", f"{len(result.rows)} rows; expected {n}, one for each level")
-    for key, row in _rows_by_level(new_result, replay.plan).items():
+    for key, row in rows_by_level(new_result, replay.plan).items():
         for column, cell in zip(new_result.columns, new_result.rows[row], strict=True):
             if column.name == "ended_at" and len(new_result.rows) < len(result.rows):
                 continue  # includes earlier parts of the run
@@ -316,7 +316,8 @@ def _check_images(report: Verification, directory: Path, replay_directory: Path)
             report.add(f"{IMAGES}/{path.name}", "differs from the image of the replay")
 
 
-def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
+def rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
+    """Return the index of each row of a result, by the repeat and the values of its level."""
     names = [c.name for c in result.columns if c.kind == "level" or c.name == "repeat"]
     columns = [result.numbers(name) for name in names]
     rows: dict[tuple[float, ...], int] = {}
@@ -326,5 +327,6 @@ def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
     return rows
 
 
-def _row_keys(trial: Trial) -> list[tuple[float, ...]]:
+def row_keys(trial: Trial) -> list[tuple[float, ...]]:
+    """Return the repeat and the values of each level of a trial."""
     return [(float(trial.repeat), *(value for _, value in level.values)) for level in trial.levels]

@@ -7,17 +7,18 @@
     meta/info.json  meta/stats.json  meta/tasks.parquet
     meta/episodes/chunk-000/file-000.parquet
 
-Each recording is one episode; the episodes follow each other in the files. The files follow the
-layout of LeRobot's data sets of codebase version v3.0; they are read back with pyarrow, not with
-LeRobot, which needs torch.
+Each recording, or level of a result, is one episode; the episodes follow each other in the files.
+The files follow the layout of LeRobot's data sets of codebase version v3.0; they are read back with
+pyarrow, not with LeRobot, which needs torch.
 """
 
 from __future__ import annotations
 
 import importlib.util
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,7 @@ from ...middleware.recording import BagReader
 from ...results.atomic_file import write_text
 from ...viewer.film.encoder import FfmpegEncoder, as_yuv
 from .csv_tables import check_folder, check_topics
-from .steps import Episode, read_episode
+from .steps import Episode, Numbers, read_episode
 
 CODEBASE_VERSION = "v3.0"
 CHUNK = "chunk-000/file-000"
@@ -82,9 +83,26 @@ def export_lerobot(
         name = f"observation.images.{topic.strip('/').replace('/', '.')}"
         path = out / "videos" / name / f"{CHUNK}.mp4"
         sizes[name] = _write_film(recordings, topic, episodes, path)
-    _write_steps(out, episodes)
-    _write_meta(out, episodes, sizes, task or recordings[0].stem)
+    write_lerobot(episodes, out, task or recordings[0].stem, sizes)
     return episodes
+
+
+def write_lerobot(
+    episodes: Sequence[Episode],
+    out: Path,
+    task: str,
+    sizes: Mapping[str, tuple[int, int]] = MappingProxyType({}),
+) -> None:
+    """Write the steps and ``meta`` of episodes with the same fields.
+
+    Args:
+        episodes: the episodes.
+        out: the folder.
+        task: the description of the task in words.
+        sizes: the width and height of each film [px].
+    """
+    _write_steps(out, episodes)
+    _write_meta(out, episodes, sizes, task)
 
 
 def _check_fields(recordings: Sequence[Path], episodes: Sequence[Episode]) -> None:
@@ -112,7 +130,20 @@ def _columns_of(episodes: Sequence[Episode]) -> dict[str, npt.NDArray[Any]]:
         "episode_index": np.repeat(np.arange(len(lengths), dtype=np.int64), lengths),
         "index": np.arange(n, dtype=np.int64),
         "task_index": np.zeros(n, np.int64),
+        **_outcomes_of(episodes),
     }
+
+
+def _outcomes_of(episodes: Sequence[Episode]) -> dict[str, npt.NDArray[Any]]:
+    """Return the columns of rewards, ends and successes; none for recordings."""
+    columns: dict[str, list[npt.NDArray[Any]]] = {}
+    for episode in episodes:
+        if (outcome := episode.outcome) is not None:
+            is_last = np.arange(len(episode.times)) == len(episode.times) - 1
+            columns.setdefault("next.reward", []).append(outcome.rewards)
+            columns.setdefault("next.done", []).append(is_last)
+            columns.setdefault("next.success", []).append(is_last & outcome.is_success)
+    return {name: np.concatenate(parts) for name, parts in columns.items()}
 
 
 def _write_steps(out: Path, episodes: Sequence[Episode]) -> None:
@@ -129,22 +160,22 @@ def _write_steps(out: Path, episodes: Sequence[Episode]) -> None:
     pq.write_table(pa.table(table), path)
 
 
-def _observations_of(episodes: Sequence[Episode]) -> npt.NDArray[np.float32]:
+def _observations_of(episodes: Sequence[Episode]) -> Numbers:
     return np.concatenate([episode.observations for episode in episodes])
 
 
-def _actions_of(episodes: Sequence[Episode]) -> npt.NDArray[np.float32]:
+def _actions_of(episodes: Sequence[Episode]) -> Numbers:
     return np.concatenate([episode.actions for episode in episodes])
 
 
-def _vectors(values: npt.NDArray[np.float32]) -> Any:
+def _vectors(values: Numbers) -> Any:
     import pyarrow as pa
 
     return pa.FixedSizeListArray.from_arrays(pa.array(values.reshape(-1)), values.shape[1])
 
 
 def _write_meta(
-    out: Path, episodes: Sequence[Episode], sizes: dict[str, tuple[int, int]], task: str
+    out: Path, episodes: Sequence[Episode], sizes: Mapping[str, tuple[int, int]], task: str
 ) -> None:
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -169,7 +200,7 @@ def _write_meta(
 
 
 def _describe_episode(
-    episode: Episode, number: int, start: int, sizes: dict[str, tuple[int, int]], task: str
+    episode: Episode, number: int, start: int, sizes: Mapping[str, tuple[int, int]], task: str
 ) -> dict[str, Any]:
     """Return the row of an episode, whose first step has the index ``start`` in the data set."""
     end = start + len(episode.times)
@@ -197,7 +228,7 @@ def _describe_episode(
     return row
 
 
-def find_stats(values: npt.NDArray[np.float32]) -> dict[str, list[Any]]:
+def find_stats(values: Numbers) -> dict[str, list[Any]]:
     """Return minimum, maximum, mean, deviation, count and quantiles of columns, (n, k)."""
     numbers = values.astype(np.float64)
     stats: dict[str, list[Any]] = {
@@ -212,11 +243,11 @@ def find_stats(values: npt.NDArray[np.float32]) -> dict[str, list[Any]]:
     return stats
 
 
-def _info(episodes: Sequence[Episode], sizes: dict[str, tuple[int, int]]) -> dict[str, Any]:
+def _info(episodes: Sequence[Episode], sizes: Mapping[str, tuple[int, int]]) -> dict[str, Any]:
     episode = episodes[0]
     features: dict[str, Any] = {
-        "observation.state": _feature("float32", episode.observation_names),
-        "action": _feature("float32", episode.action_names),
+        "observation.state": _feature(episode.observations, episode.observation_names),
+        "action": _feature(episode.actions, episode.action_names),
     }
     for name, (width, height) in sizes.items():
         features[name] = {
@@ -254,8 +285,8 @@ def _info(episodes: Sequence[Episode], sizes: dict[str, tuple[int, int]]) -> dic
     }
 
 
-def _feature(kind: str, names: Sequence[str]) -> dict[str, Any]:
-    return {"dtype": kind, "shape": [len(names)], "names": list(names)}
+def _feature(values: Numbers, names: Sequence[str]) -> dict[str, Any]:
+    return {"dtype": str(values.dtype), "shape": [len(names)], "names": list(names)}
 
 
 def _write_film(

@@ -1,7 +1,7 @@
-"""Minari: one episode of observations and actions, stored as Arrow.
+"""Minari: episodes of observations, actions and rewards, stored as Arrow.
 
-``MINARI_DATASETS_PATH=OUT`` and ``minari.load_dataset("uwsim/NAME-v0")`` read it. The reward is 0:
-a recording has none. An episode has one observation more than actions; the episode is truncated.
+``MINARI_DATASETS_PATH=OUT`` and ``minari.load_dataset("uwsim/NAME-v0")`` read it. An episode has
+one observation more than actions. A recording is one truncated episode, whose reward is 0.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,33 +22,56 @@ from ...version import __version__
 from .csv_tables import check_folder
 from .steps import Episode, read_episode
 
+if TYPE_CHECKING:
+    from minari.data_collector import EpisodeBuffer
+
 STORAGE = "MINARI_DATASETS_PATH"
 """The environment variable with the folder of Minari's data sets."""
 
 
-def export_minari(
-    recording: Path, out: Path, *, observations: Sequence[str], actions: Sequence[str], rate: float
-) -> tuple[str, Episode]:
-    """Write a data set of one episode; return its identifier and its steps.
-
-    Raises:
-        MissingExtra: Minari or pyarrow is not installed.
-        UwsimError: the recording, a topic or the folder is invalid.
-    """
+def check_extras() -> None:
+    """Raise MissingExtra unless Minari, pyarrow and Gymnasium are installed."""
     for module in ("minari", "pyarrow", "gymnasium"):
         if importlib.util.find_spec(module) is None:
             raise MissingExtra(
                 f"--minari needs {module}. Install it with: pip install 'uwsim[export]'."
             )
+
+
+def export_minari(
+    recording: Path, out: Path, *, observations: Sequence[str], actions: Sequence[str], rate: float
+) -> tuple[str, Episode]:
+    """Write a data set of one recording; return its identifier and its steps.
+
+    Raises:
+        MissingExtra: Minari or pyarrow is not installed.
+        UwsimError: the recording, a topic or the folder is invalid.
+    """
+    check_extras()
     check_folder(out)
     episode = read_episode(recording, observations, actions, rate)
-    name = re.sub(r"[^A-Za-z0-9_]+", "-", recording.stem).strip("-") or "recording"
+    return write_minari([episode], out, recording.stem), episode
+
+
+def write_minari(episodes: Sequence[Episode], out: Path, name: str, algorithm: str = "") -> str:
+    """Write a data set of episodes with the same fields into a new folder.
+
+    Args:
+        episodes: the episodes.
+        out: the folder.
+        name: the name of the data set; other letters than those of Minari's names become "-".
+        algorithm: the algorithm that acted; empty: not known.
+
+    Returns:
+        The identifier.
+    """
+    name = re.sub(r"[^A-Za-z0-9_]+", "-", name).strip("-") or "recording"
     identifier = f"uwsim/{name}-v0"
     out.mkdir(parents=True, exist_ok=True)
     with storage_in(out), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # about an author and a code that a recording has not
-        _write(identifier, episode)
-    return identifier, episode
+        warnings.simplefilter("ignore")  # about an author and a code that an export has not
+        _write(identifier, episodes, algorithm)
+    return identifier
 
 
 @contextmanager
@@ -63,30 +87,45 @@ def storage_in(out: Path) -> Iterator[None]:
             os.environ[STORAGE] = previous_value
 
 
-def _write(identifier: str, episode: Episode) -> None:
+def _write(identifier: str, episodes: Sequence[Episode], algorithm: str) -> None:
     import minari
     from gymnasium.spaces import Box
-    from minari.data_collector import EpisodeBuffer
 
-    n = len(episode.times) - 1
-    is_last = np.arange(n) == n - 1
-    buffer = EpisodeBuffer(
-        id=0,
-        observations=episode.observations,
-        actions=episode.actions[:n],
-        rewards=[0.0] * n,
-        terminations=[False] * n,
-        truncations=is_last.tolist(),
-        infos={},
-    )
+    first, limit = episodes[0], np.inf if episodes[0].outcome is None else 1.0
+    observations, actions = first.observations, first.actions
     minari.create_dataset_from_buffers(
         identifier,
-        [buffer],
-        observation_space=Box(-np.inf, np.inf, episode.observations.shape[1:], np.float32),
-        action_space=Box(-np.inf, np.inf, episode.actions.shape[1:], np.float32),
+        [_make_buffer(number, episode) for number, episode in enumerate(episodes)],
+        observation_space=Box(-np.inf, np.inf, observations.shape[1:], observations.dtype.type),
+        action_space=Box(-limit, limit, actions.shape[1:], actions.dtype.type),
+        algorithm_name=algorithm or None,
         description=(
             f"Recorded by uwsim {__version__}. Observations: "
-            f"{', '.join(episode.observation_names)}. Actions: {', '.join(episode.action_names)}."
+            f"{', '.join(first.observation_names)}. Actions: {', '.join(first.action_names)}."
         ),
         data_format="arrow",
+    )
+
+
+def _make_buffer(number: int, episode: Episode) -> EpisodeBuffer:
+    """Return an episode of Minari, which has one observation more than actions."""
+    from minari.data_collector import EpisodeBuffer
+
+    outcome = episode.outcome
+    observations, actions = episode.observations, episode.actions
+    if outcome is None:
+        actions = actions[:-1]
+    else:
+        observations = np.concatenate([observations, outcome.final_observation[None]])
+    n = len(actions)
+    is_last = np.arange(n) == n - 1
+    is_terminated = outcome is not None and outcome.is_terminated
+    return EpisodeBuffer(
+        id=number,
+        observations=observations,
+        actions=actions,
+        rewards=[0.0] * n if outcome is None else outcome.rewards.tolist(),
+        terminations=(is_last & is_terminated).tolist(),
+        truncations=(is_last & (not is_terminated)).tolist(),
+        infos={},
     )

@@ -1,4 +1,4 @@
-"""Steps of an episode: observations and actions of a recording at a constant rate.
+"""Steps of an episode: observations and actions at a constant rate, and those of a recording.
 
 At the time of a step, an observation is the newest message of its topic, and the action is the
 newest command. The first step is at the first time at which all topics have a message.
@@ -23,12 +23,26 @@ MAX_STEPS = 10_000_000
 """The greatest number of steps of an episode."""
 MAX_RATE = 1000.0
 """The greatest rate of steps [Hz]."""
-Numbers = npt.NDArray[np.float32]
+Numbers = npt.NDArray[np.float32] | npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """The rewards and the end of an episode of an environment."""
+
+    rewards: npt.NDArray[np.float64]
+    """The reward of each step, (n,)."""
+    final_observation: Numbers
+    """The observation after the last step, (k,)."""
+    is_terminated: bool
+    """True if a trigger, a measure or a failure ended the episode, not the time."""
+    is_success: bool
+    """True if the episode had success."""
 
 
 @dataclass(frozen=True, eq=False)
 class Episode:
-    """The steps of a recording."""
+    """The steps of a recording, or of a level of a result."""
 
     rate: float
     """The rate of the steps [Hz]."""
@@ -42,6 +56,8 @@ class Episode:
     """The actions, (n, m)."""
     action_names: tuple[str, ...]
     """The topic and the field of each number of an action."""
+    outcome: Outcome | None = None
+    """The rewards and the end; None: a recording has neither."""
 
 
 def read_episode(

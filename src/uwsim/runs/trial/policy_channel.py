@@ -63,6 +63,8 @@ class PolicyChannel:
         """The reader of observations."""
         self.last_action = np.zeros(self.actuator.size)
         """The last action, (n,); 0 before the first."""
+        self.has_acted = False
+        """A flag that the first action sets."""
         self.is_due = False
         """A flag that is set when an observation is due, until it is taken."""
         self._pending_action: Array | None = None
@@ -97,6 +99,7 @@ class PolicyChannel:
         if self._pending_action is None:
             return
         self.last_action, self._pending_action = self._pending_action, None
+        self.has_acted = True
         self.actuator.apply(self.last_action)
         self._simulation.bus.deliver()
 
