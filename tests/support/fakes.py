@@ -167,6 +167,7 @@ class FakeWorld:
         self.forces_by_body: dict[str, dict[str, np.ndarray]] = {}
         self.actuators_by_vehicle: dict[str, Actuators] = {}
         self.twists_by_vehicle: dict[str, np.ndarray] = {}
+        self.courses: dict[str, np.ndarray] = {}
         self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
 
@@ -214,6 +215,11 @@ class FakeWorld:
         if name not in known_vehicles:
             raise UnknownName("vehicle", name, sorted(known_vehicles))
         return self.actuators_by_vehicle.get(name)
+
+    def course(self, name: str) -> np.ndarray:
+        if name not in self.courses:
+            raise UnknownName("object with a <u:course>", name, self.courses)
+        return self.courses[name]
 
     def camera(self, name: str) -> Camera:
         if name not in self.cameras:

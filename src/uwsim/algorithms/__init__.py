@@ -22,6 +22,8 @@ from .frozen import FrozenTracker
 from .grasp import Grasp, GraspBlindClose, GraspNothing, GraspP, GraspTruth
 from .orb import Orb
 from .pilot import Pilot
+from .pipe.camera_line import PipeCamera
+from .pipe.observed_line import PipeFollowing, PipeStraight
 from .policy import is_policy
 from .position import PositionP, PositionPI
 from .position_lqr import PositionLQR
@@ -49,6 +51,9 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "p": P,
     "pi": PI,
     "pilot": Pilot,
+    "pipe-camera": PipeCamera,
+    "pipe-following": PipeFollowing,
+    "pipe-straight": PipeStraight,
     "position-lqr": PositionLQR,
     "position-p": PositionP,
     "position-pi": PositionPI,

@@ -4,9 +4,11 @@
 
     <u:path> <u:points> 0 0 4  2 0 4  2 1 4 </u:points> </u:path>
     <u:path> <u:file>survey.csv</u:file> </u:path>
+    <u:path> <u:object>pipe</u:object> <u:height>1.2</u:height> </u:path>
 
-The CSV file has a column for each of x, y and z [m], named in its first line; other columns are not
-read. It is in the folder of the benchmark file. The coordinates are in the frame that the element
+The third one follows the line of an object with a ``<u:course>``, at a height above it. The CSV
+file has a column for each of x, y and z [m], named in its first line; other columns are not read.
+It is in the folder of the benchmark file. The coordinates are in the frame that the element
 ``<from>`` of `uwsim.benchmark.measures.path_following` names.
 """
 
@@ -21,6 +23,7 @@ from ..base.geometry import Array
 from ..errors import AssetError
 from ..messages import Path, PoseStamped
 from ..schema import Numbers, Spec, element
+from ..world import World
 from .number_table import read_numbers
 
 MAX_POINTS = 100_000
@@ -35,6 +38,13 @@ COLUMNS = ("x", "y", "z")
 class ReferencePathSpec(Spec):
     """A ``<u:path>`` element."""
 
+    object: str | None = element(namespaced=True, default=None, refers_to="course")
+    """The object with a `<u:course>` whose line is the path, instead of points; not with
+    ``<from>``. Buried stretches count as if they were not buried."""
+    height: float = element(
+        namespaced=True, default=0.0, minimum=-MAX_COORDINATE, maximum=MAX_COORDINATE
+    )
+    """The height of the path above the object's line [m]."""
     points: Numbers = element(namespaced=True, default=())
     """The x, y and z of each point, one after the other, in the frame ``<from>`` [m]."""
     file: str | None = element(namespaced=True, default=None)
@@ -42,9 +52,12 @@ class ReferencePathSpec(Spec):
     The title of a column may state the unit (``x [m]``); any other unit is an error."""
 
     def errors(self) -> Sequence[str]:
-        """Return errors: invalid points, or points and a file together, or neither."""
-        if (self.file is not None) == bool(self.points):
-            return ["<u:path> needs either <u:points> or <u:file>"]
+        """Return errors: invalid points, or other than one of points, file and object."""
+        n_sources = (self.file is not None) + bool(self.points) + (self.object is not None)
+        if n_sources != 1:
+            return ["<u:path> needs one of <u:points>, <u:file> and <u:object>"]
+        if self.object is None and self.height:
+            return ["<u:height> in <u:path> is that above an <u:object>; remove it"]
         if len(self.points) % 3:
             n = len(self.points)
             return [f"<u:points> in <u:path> has {n} numbers; expected x y z of each point"]
@@ -52,16 +65,21 @@ class ReferencePathSpec(Spec):
             return [f"<u:points> in <u:path> has a number beyond {MAX_COORDINATE:g} m"]
         return []
 
-    def read(self, benchmark: str) -> Array:
-        """Return the points in the frame ``<from>``, (n, 3) [m].
+    def read(self, benchmark: str, world: World) -> Array:
+        """Return the points in the frame ``<from>``, (n, 3) [m]; those of an object are in W.
 
         Args:
             benchmark: the path of the benchmark file, in whose folder the CSV file is.
+            world: the scene, which may have the object.
 
         Raises:
+            UnknownName: the scene has no such object with a course.
             AssetNotFound: the CSV file does not exist.
             AssetError: the CSV file has no points, or numbers that are too large or not finite.
         """
+        if self.object is not None:
+            points: Array = world.course(self.object) + np.array([0.0, 0.0, self.height])
+            return points
         if self.file is None:
             return np.array(self.points, dtype=np.float64).reshape(-1, 3)
         table = read_numbers(self.file, benchmark, max_rows=MAX_POINTS)

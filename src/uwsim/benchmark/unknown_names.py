@@ -117,6 +117,7 @@ RESOLVERS: dict[str, Callable[[Stage, str], object]] = {
     "body": lambda stage, name: stage.world.body(name),
     "camera": lambda stage, name: stage.world.camera(name),
     "contacts": lambda stage, name: stage.world.contacts(name),
+    "course": lambda stage, name: stage.world.course(name),
     "vehicle": _find_vehicle,
 }
 """The function that resolves each kind of reference (``refers_to``); it raises UnknownName."""

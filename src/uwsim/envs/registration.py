@@ -15,6 +15,7 @@ TASKS = {
     "uwsim/Docking-v0": "docking",
     "uwsim/Reach-v0": "reach",
     "uwsim/Grasp-v0": "grasp",
+    "uwsim/PipeFollowing-v0": "pipe-following",
 }
 """The benchmark of each task."""
 

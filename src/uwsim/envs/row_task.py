@@ -83,7 +83,7 @@ def plan_rows(plan: Plan, model: SceneModel) -> RowPlan:
     trajectory = spec.trajectory(plan.benchmark.measures)
     reasons = _find_reasons(plan, spec, model)
     if trajectory is None:
-        reasons.append("it has no <reference>")
+        reasons.append("it has no <reference> to a desired position")
     _refuse(plan, reasons)
     assert trajectory is not None
     index = [vehicle.name for vehicle in model.scene.vehicles].index(spec.vehicle)

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets import load_model, paint_model, primitive, unknown_model
+from ..assets.bending import BentLine, bend_model
 from ..assets.conventions import robot_scale, with_z_up
 from ..assets.mesh import Model
 from ..assets.weathering import weather_model
@@ -90,17 +91,16 @@ def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
                 parts += leds
     for index, spec in enumerate(scene.objects):
         number += 1
+        model, object_from_mesh = placed_model(scene, spec, load(spec.file))
         parts.append(
             Part(
                 id=number,
                 name=spec.name,
-                model=_weathered_model(load(spec.file), spec),
+                model=_weathered_model(model, spec),
                 vehicle=None,
                 link="",
                 object=index,
-                frame_from_mesh=product(
-                    np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix
-                ),
+                frame_from_mesh=object_from_mesh,
                 is_hidden=False,
             )
         )
@@ -142,6 +142,23 @@ def _device_part(
         frame_from_mesh=product(link_from_device, np.diag([*device.mesh.scale_factor, 1.0])),
         is_hidden=bool(vehicle.vr),
     )
+
+
+def placed_model(
+    scene: SceneSpec, spec: ObjectSpec, model: Model
+) -> tuple[Model, npt.NDArray[np.float64]]:
+    """Return the model of an object, and ``object_from_mesh`` with its scale, (4, 4) [m].
+
+    The model of a ``<u:course>`` is bent along it, in the frame of the object.
+    """
+    object_from_mesh = product(np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix)
+    course = spec.course
+    if course is None:
+        return model, object_from_mesh
+    world_from_object = scene.world_from_localized @ spec.localized_from_object
+    burial = (course.burial_depth, course.buried_share, course.buried_stretches)
+    line = BentLine(course.line, burial, -world_from_object.rotation[2])
+    return bend_model(model, object_from_mesh, line), np.eye(4)
 
 
 def _weathered_model(model: Model, spec: ObjectSpec) -> Model:

@@ -16,7 +16,9 @@ import numpy as np
 
 from ..base.geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
 from ..base.numerics.linear import length, product
+from ..base.numerics.polyline import Polyline
 from ..errors import Diagnostic, SceneError
+from ..scene.course import CourseSpec
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.on_floor import OnFloorSpec
 from ..scene.spec import SceneSpec, has_floor_placement
@@ -28,6 +30,9 @@ from .collision.ground import Ground, triangles_of
 from .collision.scene_shapes import collision_shapes, fixed_faces
 from .resolved_scene import ResolvedScene
 
+GROUND_SPACING, SMOOTHING = 0.2, 2.0
+"""The distance of points of a course on the ground [m], and the length over which its height is the
+mean of the ground's height [m]."""
 HULL_PHYSICS = PhysicsSpec(collision_shape_type="trimesh")
 """The physics with the shapes of an object without ``<physics>``: the hulls of its materials."""
 
@@ -52,7 +57,13 @@ def set_on_floor(resolved_scene: ResolvedScene) -> SceneSpec:
             else:
                 vehicles[i] = _moved_vehicle(vehicle, pose)
     for i, spec in enumerate(objects):
-        if spec.on_floor is not None:
+        if spec.on_floor is not None and spec.course is not None:
+            course = floor.course_on_ground(spec, spec.course, spec.on_floor.clearance)
+            if course is None:
+                diagnostics.append(floor.no_ground_error("object", spec))
+            else:
+                objects[i] = replace(spec, course=course, on_floor=None)
+        elif spec.on_floor is not None:
             pose = floor.pose_of_object(i, spec, spec.on_floor)
             if pose is None:
                 diagnostics.append(floor.no_ground_error("object", spec))
@@ -122,6 +133,31 @@ class Floor:
         body = self.body_of_object(index, world_from_object)
         return self._pose_on_ground(world_from_object, body, spec)
 
+    def course_on_ground(
+        self, spec: ObjectSpec, course: CourseSpec, clearance: float
+    ) -> CourseSpec | None:
+        """Return a course whose line follows the ground; None if there is none below a part of it.
+
+        The height of the line is the mean height of the ground over `SMOOTHING` of its length, and
+        the clearance.
+
+        Args:
+            spec: the object.
+            course: the course in the scene file.
+            clearance: the height of the line above the ground [m].
+        """
+        world_from_object = self._scene.world_from_localized @ spec.localized_from_object
+        line = Polyline(world_from_object.transform(course.line))
+        n = max(1, math.ceil(line.length / GROUND_SPACING))
+        points = np.array([line.position(line.length * i / n) for i in range(n + 1)])
+        heights = [self.ground.height_at(point) for point in points]
+        known_heights = [height for height in heights if height is not None]
+        if len(known_heights) < len(heights):
+            return None
+        points[:, 2] = _moving_mean(np.array(known_heights)) + clearance
+        places = world_from_object.inverse().transform(points)
+        return replace(course, points=tuple(places.ravel().tolist()), bend_radius=0.0)
+
     def _pose_on_ground(self, world_from_body: Pose, body: Array, spec: OnFloorSpec) -> Pose | None:
         """Compute the pose on the ground, in L; None if there is no ground.
 
@@ -155,6 +191,17 @@ class Floor:
             f"file's frame. Expected an object 'terrain' or with <u:solid> 1 {location_text}",
             file=self._scene.path,
         )
+
+
+def _moving_mean(heights: Array) -> Array:
+    """Return the mean of heights at equal distances over `SMOOTHING`, less at the ends, (n,)."""
+    half = round(SMOOTHING / GROUND_SPACING / 2.0)
+    sums = np.concatenate([[0.0], np.cumsum(heights)])
+    indices = np.arange(len(heights))
+    half_widths = np.minimum(half, np.minimum(indices, indices[::-1]))
+    low, high = indices - half_widths, indices + half_widths + 1
+    means: Array = (sums[high] - sums[low]) / (high - low)
+    return means
 
 
 def _rotation_to(normal: Array) -> Array:

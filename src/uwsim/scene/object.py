@@ -10,6 +10,7 @@ from ..base.geometry import UNIT_SCALE, ZERO, Pose, Triple, rotation_from_xyz
 from ..base.numerics.linear import product
 from ..schema import CLAMPED_NUMBER, MAX_DISTANCE, REQUIRED_BY_DTD, Spec, element
 from .accepted_warnings import ObjectWarning
+from .course import CourseSpec
 from .on_floor import OnFloorSpec
 
 ShapeType = Literal[
@@ -127,6 +128,9 @@ class ObjectSpec(Spec):
     replaced by a height field or a simpler mesh within 0.03 m."""
     on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
     """The placement on the ground; without it the object begins at its position."""
+    course: CourseSpec | None = element(namespaced=True, default=None)
+    """The line along which the mesh is repeated and bent, as a pipe or a cable; without it the mesh
+    is a single piece."""
     acoustic_material: MaterialName | None = element(namespaced=True, default=None)
     """The material for sonars; without it an object called `terrain` is sand, others are steel."""
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)

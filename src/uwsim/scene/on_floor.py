@@ -24,7 +24,8 @@ class OnFloorSpec(Spec):
     The ground is `terrain` and other objects that are solid and fixed. Of several surfaces above
     one another, the body is placed on the highest below its position. Its collision shape touches
     the ground; for an object without `<physics>` this is the convex hull of its mesh.
-    `<u:onFloor/>` is sufficient.
+    `<u:onFloor/>` is sufficient. The line of a `<u:course>` follows the ground instead, and
+    `<u:clearance>` is its height above the ground.
     """
 
     clearance: float = element(

@@ -33,6 +33,11 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         element = message.partition(">")[0].removeprefix("<")
         tag = element.replace("u:", f"{{{NAMESPACE}}}")
         diagnostics.error(line_of(ocean, tag), message)
+    for item in scene.objects:
+        for error in () if item.course is None else item.course.errors():
+            diagnostics.error(item.course, error)
+        if item.course is not None and item.physics is not None and item.physics.is_loose:
+            diagnostics.error(item.course, "<u:course> is fixed; remove <physics>, or its mass")
     n_total = 0
     for image in _cameras(scene):
         if error := find_size_error(image.resw, image.resh, ocean.water):

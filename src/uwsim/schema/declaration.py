@@ -52,7 +52,7 @@ class Limits(TypedDict, total=False):
     """
 
 
-ReferenceKind = Literal["actuators", "body", "camera", "contacts", "vehicle"]
+ReferenceKind = Literal["actuators", "body", "camera", "contacts", "course", "vehicle"]
 """The kinds of parts of a scene that a field may name."""
 
 

@@ -85,6 +85,13 @@ class World(TimedWorld, Protocol):
         The linear velocity [m/s] is first, then the angular velocity [rad/s], in base axes, (6,).
         """
 
+    def course(self, name: str) -> npt.NDArray[np.float64]:
+        """Return the line of an object with a ``<u:course>``; raise UnknownName if there is none.
+
+        It is the line at the beginning of the simulation, without its buried stretches, (n, 3) in W
+        [m].
+        """
+
     def camera(self, name: str) -> Camera:
         """Return a virtual camera; raise UnknownName if there is none."""
 

@@ -10,8 +10,8 @@ import pytest
 
 from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.base.geometry import rotation_from_rpy, rotation_z
+from uwsim.base.numerics.polyline import Polyline
 from uwsim.benchmark.measures.path_following import PathFollowing, PathFollowingSpec
-from uwsim.benchmark.metrics.polyline import Polyline
 from uwsim.benchmark.reference_path import ReferencePathSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Path, Point, PoseStamped, Quaternion, header
@@ -360,3 +360,67 @@ def test_without_topic_and_path_there_is_no_value() -> None:
     measure.start()
     assert measure.value is None
     assert measure.missing_reason == "neither <topic> nor <u:path> gives a path"
+
+
+def task(world: FakeWorld, points: Sequence[float] = (0, 0, 0, 10, 0, 0)) -> PathFollowing:
+    """A task along a path: to 80 % of it, and no farther than 1 m from it."""
+    spec = PathFollowingSpec(
+        name="p",
+        target="v",
+        value="rms",
+        end_share=0.8,
+        max_distance=1.0,
+        reference=ReferencePathSpec(points=tuple(map(float, points))),
+    )
+    measure = spec.bind(world)
+    measure.start()
+    return measure
+
+
+def test_a_path_ends_the_level_at_its_share() -> None:
+    world = FakeWorld({"v": FakeBody((0.0, 0.0, 0.0))}, timestep=0.01)
+    measure = task(world)
+    go(world, measure, lambda t: (t, 0.0, 0.0), 7.9)
+    assert (measure.ends_level, measure.task_status) == (
+        None, ("timeout", "reached 0.79 of the path")
+    )  # fmt: skip
+    go(world, measure, lambda t: (t, 0.0, 0.0), 0.2)
+    assert measure.ends_level is not None
+    assert measure.task_status == ("ok", None)
+
+
+def test_a_body_too_far_from_the_path_is_lost() -> None:
+    world = FakeWorld({"v": FakeBody((0.0, 0.0, 0.0))}, timestep=0.01)
+    measure = task(world)
+    go(world, measure, lambda t: (t, t, 0.0), 1.01)
+    assert measure.task_status == ("lost", "1.01 m from the path at 1.01 s")
+    assert measure.ends_level == "1.01 m from the path at 1.01 s"
+
+
+def test_a_path_without_an_end_is_no_task() -> None:
+    world = FakeWorld({"v": FakeBody((0.0, 0.3, 0.4))}, timestep=0.01)
+    measure = following(world)
+    go(world, measure, lambda t: (t, 50.0, 0.0), 11.0)
+    assert (measure.ends_level, measure.task_status) == (None, None)
+
+
+def test_the_line_of_an_object_is_a_path_at_a_height() -> None:
+    world = FakeWorld({"v": FakeBody((1.0, 0.0, 5.0))}, timestep=0.01)
+    world.courses["pipe"] = np.array([[0.0, 0.0, 3.0], [9.0, 0.0, 3.0]])
+    reference = ReferencePathSpec(object="pipe", height=1.5)
+    measure = PathFollowingSpec(name="p", target="v", value="max", reference=reference).bind(world)
+    measure.start()
+    assert measure.value == 0.5
+    with pytest.raises(UnknownName, match="cable"):
+        ReferencePathSpec(object="cable").read("", world)
+
+
+@pytest.mark.parametrize(
+    ("reference", "message"),
+    [
+        (ReferencePathSpec(object="pipe", points=(0.0, 0.0, 0.0)), "needs one of"),
+        (ReferencePathSpec(points=(0.0, 0.0, 0.0), height=1.0), "above an <u:object>"),
+    ],
+)
+def test_a_path_of_two_sources_is_an_error(reference: ReferencePathSpec, message: str) -> None:
+    assert message in reference.errors()[0]

@@ -14,6 +14,8 @@ angularVelocity      :math:`\omega`, in base axes (3) [rad/s]
 lastAction           the last action, 0 before the first (n) [1]
 ===================  =========================================================================
 
+`path_view` has those of a path: ``pathError``, ``pathDirection`` and ``pathAhead``.
+
 All are the truth; sensors are observed by ``<topicField>``.
 """
 
@@ -28,6 +30,7 @@ from ...base.geometry import Array
 from ...base.numerics.linear import rotate
 from ...world import World
 from ..metrics.reference import Reference
+from .path_view import SIZE, PathView
 
 DOWN = np.array([0.0, 0.0, -1.0])
 """The direction of gravity in W."""
@@ -56,10 +59,16 @@ class VehicleState:
     """The simulation time [s]."""
     last_action: Array
     """The last action (n,)."""
+    path: Array | None = None
+    """The view of the path (`PathView.read`), (15,) [m, 1]; None without a path."""
 
     @staticmethod
     def read(
-        world: World, vehicle: str, reference: Reference | None, last_action: Array
+        world: World,
+        vehicle: str,
+        reference: Reference | None,
+        last_action: Array,
+        path: PathView | None = None,
     ) -> VehicleState:
         """Read the present state of a vehicle."""
         world_from_base = world.body(vehicle).world_from_body
@@ -75,6 +84,7 @@ class VehicleState:
             reference_motion=no_reference if reference is None else reference.velocity(),
             time=world.time,
             last_action=last_action,
+            path=None if path is None else path.read(world_from_base),
         )
 
     @property
@@ -100,11 +110,24 @@ def to_base(rotation: Array, vector: Array) -> Array:
     return result
 
 
+def _path_part(start: int, stop: int) -> Read:
+    """Return a function that reads a part of the view of the path."""
+
+    def read(state: VehicleState) -> Array:
+        assert state.path is not None
+        return state.path[..., start:stop]
+
+    return read
+
+
 Read = Callable[[VehicleState], Array]
 
 CHANNELS: dict[str, tuple[int | None, Read]] = {
     "positionError": (3, lambda state: state.position_error),
     "referenceVelocity": (3, lambda state: state.reference_velocity),
+    "pathError": (3, _path_part(0, 3)),
+    "pathDirection": (3, _path_part(3, 6)),
+    "pathAhead": (SIZE - 6, _path_part(6, SIZE)),
     "position": (3, lambda state: state.position),
     "heading": (2, lambda state: state.localized_from_base[..., :2, 0]),
     "gravity": (3, lambda state: state.gravity),
@@ -115,4 +138,6 @@ CHANNELS: dict[str, tuple[int | None, Read]] = {
 """The size and the function of each quantity; None: the size of an action."""
 
 REFERENCE_CHANNELS = ("positionError", "referenceVelocity")
-"""The quantities that need a reference."""
+"""The quantities that need a desired position."""
+PATH_CHANNELS = ("pathError", "pathDirection", "pathAhead")
+"""The quantities that need a path."""

@@ -11,6 +11,7 @@ from ...world import World
 from ..measures import MeasureSpec
 from ..metrics.reference import Reference
 from .channels import CHANNELS, VehicleState
+from .path_view import PathView
 from .relations import bind_relations
 from .spec import EnvironmentSpec
 from .topic_fields import TopicField
@@ -30,7 +31,8 @@ class Observer:
 
     Args:
         spec: the environment.
-        measures: the measures of the benchmark, one of which may have the desired position.
+        measures: the measures of the benchmark, one of which may have the desired position or
+            the path.
         world: the scene.
         n_actions: the number of numbers of an action.
 
@@ -52,6 +54,8 @@ class Observer:
             if trajectory is None
             else Reference(trajectory, world, relative_to=spec.reference_vehicle(measures))
         )
+        path = spec.path_measure(measures)
+        self._path = None if path is None else PathView(path, world)
         self._channels = [CHANNELS[name] for name in spec.channels]
         self._relations = bind_relations(spec.relations, world)
         self._fields = [TopicField(field, world) for field in spec.topic_field]
@@ -70,7 +74,9 @@ class Observer:
 
     def state(self, last_action: Array) -> VehicleState:
         """Return the present state of the vehicle."""
-        return VehicleState.read(self._world, self._vehicle, self._reference, last_action)
+        return VehicleState.read(
+            self._world, self._vehicle, self._reference, last_action, self._path
+        )
 
     def read(self, last_action: Array) -> Array:
         """Return the present observation, limited to `MAX_OBSERVATION`, (size,)."""

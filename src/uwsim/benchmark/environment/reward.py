@@ -9,7 +9,7 @@ tilt           the angle between the base's z axis and its direction at the star
 time           the simulation time [s]
 =============  ================================================================================
 
-The newest sample of a measure is the first number of its log: for a ``<positionError>`` the
+The newest sample of a measure is the first number of its log, and of a ``<pathFollowing>`` the
 present distance, whichever statistic ``u:value`` selects. The other numbers of the log of some
 measures have names, such as ``success_height`` of a ``<u:grasp>`` with the name ``success``
 (`MeasureSpec.columns`). The name of a ``<relativePose>`` is its distance [m], that of a
@@ -70,7 +70,7 @@ class RewardFunction:
             action: the action of the step.
         """
         values: dict[str, float | None] = {
-            name: _newest_sample(measure) for name, measure in measures.items()
+            name: measure.newest_sample for name, measure in measures.items()
         }
         for name, measure in measures.items():
             if any(text.startswith(f"{name}_") for text in self.names):
@@ -123,8 +123,3 @@ def _read_columns(name: str, measure: Measure) -> dict[str, float | None]:
     labels = [label.partition(" ")[0] for label in measure.log_header]
     samples = zip(labels, measure.log_values, strict=True)
     return {f"{name}_{label}": value for label, value in samples if label != labels[0]}
-
-
-def _newest_sample(measure: Measure) -> float | None:
-    values = measure.log_values
-    return values[0] if values else measure.value

@@ -22,10 +22,10 @@ from dataclasses import dataclass
 from ...base.expression import ScoreError, parse
 from ...errors import did_you_mean
 from ...schema import Numbers, Spec, element
-from ..measures import MeasureSpec, PositionErrorSpec, TrackingErrorSpec
+from ..measures import MeasureSpec, PathFollowingSpec, PositionErrorSpec, TrackingErrorSpec
 from ..metrics.held_commands import TWIST_UNITS, WRENCH_UNITS
 from ..reference_trajectory import TrajectorySpec
-from .channels import CHANNELS, REFERENCE_CHANNELS
+from .channels import CHANNELS, PATH_CHANNELS, REFERENCE_CHANNELS
 from .relations import ContactSpec, RelativePoseSpec
 from .reward import REWARD_NAMES
 
@@ -76,7 +76,7 @@ class EnvironmentSpec(Spec):
     """The time between two actions [s]."""
     reference: str | None = element(default=None)
     """The measure that has the desired position: a ``<positionError>`` or a
-    ``<u:trackingError>``."""
+    ``<u:trackingError>``; or the path: a ``<pathFollowing>`` with ``<u:path>``."""
     observation: str = ""
     """The observed quantities of the vehicle's state, separated by blanks
     (`uwsim.benchmark.environment.channels`)."""
@@ -130,6 +130,17 @@ class EnvironmentSpec(Spec):
                 return spec.relative_to
         return None
 
+    def path_measure(self, measures: Sequence[MeasureSpec]) -> PathFollowingSpec | None:
+        """Return the measure with the path; None if the reference is none."""
+        for spec in measures:
+            if (
+                isinstance(spec, PathFollowingSpec)
+                and spec.name == self.reference
+                and spec.reference is not None
+            ):
+                return spec
+        return None
+
     def errors(self, measures: Sequence[MeasureSpec]) -> Iterator[tuple[str, str]]:
         """Yield the errors of the element: the name of a child, and the message.
 
@@ -144,25 +155,20 @@ class EnvironmentSpec(Spec):
                     f"<observation> names {channel[:60]!r}.{did_you_mean(channel, CHANNELS)} "
                     f"Known: {', '.join(CHANNELS)}",
                 )
-            elif channel in REFERENCE_CHANNELS and self.reference is None:
+            elif channel in REFERENCE_CHANNELS and self.trajectory(measures) is None:
                 yield "observation", f"{channel} in <observation> needs a <reference>"
+            elif channel in PATH_CHANNELS and self.path_measure(measures) is None:
+                yield (
+                    "observation",
+                    f"{channel} in <observation> needs a <reference> to a <pathFollowing> with "
+                    "<u:path>",
+                )
         if not self.channels and not self.topic_field and not self.relations:
             yield "observation", "nothing is observed; expected <observation> or <topicField>"
         yield from self._relation_errors([*names, *REWARD_NAMES])
         if not self.action:
             yield "action", "there is no <action>; expected one at least"
-        if self.reference is not None and self.trajectory(measures) is None:
-            with_position = [
-                spec.name
-                for spec in measures
-                if isinstance(spec, PositionErrorSpec | TrackingErrorSpec)
-            ]
-            yield (
-                "reference",
-                f"<reference> names {self.reference[:60]!r}, which is no <positionError> or "
-                f"<u:trackingError>.{did_you_mean(self.reference, with_position)} "
-                f"Known: {', '.join(with_position) or 'none'}",
-            )
+        yield from self._reference_errors(measures)
         yield from self._action_errors()
         for tag, text, valid_names in (
             ("reward", self.reward, [*self.sample_names(measures), *REWARD_NAMES]),
@@ -186,6 +192,22 @@ class EnvironmentSpec(Spec):
                     f"<name> is {spec.name[:60]!r}, which is taken; expected another",
                 )
             taken_names.add(spec.name)
+
+    def _reference_errors(self, measures: Sequence[MeasureSpec]) -> Iterator[tuple[str, str]]:
+        known_names = [
+            spec.name
+            for spec in measures
+            if isinstance(spec, PositionErrorSpec | TrackingErrorSpec)
+            or (isinstance(spec, PathFollowingSpec) and spec.reference is not None)
+        ]
+        if self.reference is not None and self.reference not in known_names:
+            yield (
+                "reference",
+                f"<reference> names {self.reference[:60]!r}, which is no <positionError>, "
+                "<u:trackingError> or <pathFollowing> with <u:path>."
+                f"{did_you_mean(self.reference, known_names)} "
+                f"Known: {', '.join(known_names) or 'none'}",
+            )
 
     def _action_errors(self) -> Iterator[tuple[str, str]]:
         for action in self.action:

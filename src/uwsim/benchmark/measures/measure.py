@@ -131,6 +131,12 @@ class Measure(abc.ABC):
         return (self.value,)
 
     @property
+    def newest_sample(self) -> float | None:
+        """The newest sample of the measured quantity, for rewards: the first number of the log."""
+        values = self.log_values
+        return values[0] if values else self.value
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """The notes about this measure for the reader of the result."""
         return ()

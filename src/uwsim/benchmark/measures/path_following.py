@@ -15,6 +15,15 @@ With ``<u:path>`` the benchmark file itself defines the path, by points or by a 
       <name>pathError</name> <target>girona500</target> <from>localizedWorld</from>
       <u:path> <u:points> 0 0 4  2 0 4  2 1 4 </u:points> </u:path>
     </pathFollowing>
+
+A path may be a task: the level ends when the body has reached a share of it, or is too far from it.
+
+.. code-block:: xml
+
+    <pathFollowing u:value="rms" u:endShare="0.98" u:maxDistance="2">
+      <name>offset</name> <target>bluerov2</target>
+      <u:path> <u:object>pipe</u:object> <u:height>1.2</u:height> </u:path>
+    </pathFollowing>
 """
 
 from __future__ import annotations
@@ -28,10 +37,10 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.inbox import Inbox
 from ...base.numerics.linear import rotate_back
+from ...base.numerics.polyline import Polyline
 from ...messages import Path
 from ...schema import element
 from ...world import Body, World
-from ..metrics.polyline import Polyline
 from ..metrics.signal import VALUES, Signal
 from ..reference_path import ReferencePathSpec, path_message
 from .measure import Measure, MeasureSpec
@@ -63,12 +72,26 @@ class PathFollowingSpec(MeasureSpec):
     reference: ReferencePathSpec | None = element("path", namespaced=True, default=None)
     """The path. If there is a ``<topic>`` too, the path is published on it when the measure
     starts."""
+    end_share: float | None = element(
+        default=None, attribute=True, namespaced=True, exclusive_minimum=0.0, maximum=1.0
+    )
+    """The share of the path's length at which the level ends, in status ``ok`` (``u:endShare``)
+    [1]. A level that ends earlier has the status ``timeout``."""
+    max_distance: float | None = element(
+        default=None, attribute=True, namespaced=True, exclusive_minimum=0.0
+    )
+    """The distance from the path beyond which the level ends, in status ``lost``
+    (``u:maxDistance``) [m]."""
     path: str = field(default="", compare=False, metadata={"path": True})
     """The path of the benchmark file, in whose folder a CSV file of points is."""
 
     def errors(self) -> Sequence[str]:
         """Return errors of the path."""
-        return () if self.reference is None else self.reference.errors()
+        if self.reference is None:
+            return ()
+        if self.reference.object is not None and self.from_ is not None:
+            return ["<from> does not apply to the line of an <u:object>; remove it"]
+        return self.reference.errors()
 
     @property
     def start_value(self) -> float:
@@ -79,7 +102,7 @@ class PathFollowingSpec(MeasureSpec):
         """Resolve target and frame; raises UnknownName if one is unknown."""
         inbox = None if self.topic is None else world.bus.inbox(self.topic, Path, latched=True)
         frame = None if self.from_ is None else world.body(self.from_)
-        points = None if self.reference is None else self.reference.read(self.path)
+        points = None if self.reference is None else self.reference.read(self.path, world)
         return PathFollowing(self, world, world.body(self.target), frame, inbox, points)
 
 
@@ -110,6 +133,8 @@ class PathFollowing(Measure):
     the path's length that the point nearest to the body has reached [1]; and the statistics of the
     distance over all steps [m].
 
+    With ``u:endShare`` or ``u:maxDistance`` the measure is the task of the level (`task_status`).
+
     Compatibility ``path-ise``: both ``iae`` and ``ise`` are the sum of :math:`d_1 \Delta t`.
     ``path-frame``: the position of ``from`` in W is added to the points of the path.
     ``path-repeats``: a repeated point is a segment of length 0; as the body is never nearer to this
@@ -131,6 +156,8 @@ class PathFollowing(Measure):
     ) -> None:
         self._world, self._target, self._frame, self._inbox = world, target, frame, inbox
         self._topic, self._statistic = spec.topic, spec.value
+        self._end_share, self._max_distance = spec.end_share, spec.max_distance
+        self._loss: str | None = None  # the reason for the status "lost"
         self._has_original_ise = "path-ise" in world.compatibility
         self._adds_position = "path-frame" in world.compatibility
         self._keeps_repeats = "path-repeats" in world.compatibility
@@ -168,12 +195,7 @@ class PathFollowing(Measure):
         if self._path is None:
             return
         position = self._position()
-        distance, length = self._path.find_nearest(self._segment, position)
-        if self._segment + 1 < self._path.n_segments:
-            next_nearest = self._path.find_nearest(self._segment + 1, position)
-            if next_nearest[0] < distance:
-                self._segment += 1
-                distance, length = next_nearest
+        self._segment, distance, length = self._path.follow(self._segment, position)
         self._farthest_length = max(self._farthest_length, length)
         if self._last_sample is not None:
             step, last_distance = self._last_sample
@@ -181,6 +203,28 @@ class PathFollowing(Measure):
             self._integrate(last_distance, distance, duration)
         self._last_sample = (self._world.step, distance)
         self._signal.add(distance, ())
+        if self._loss is None and self._max_distance is not None and distance > self._max_distance:
+            self._loss = f"{distance:.3g} m from the path at {self._world.time:g} s"
+
+    @property
+    def ends_level(self) -> str | None:
+        """The reason to end the level: the end of the path, or a distance that is too great."""
+        return "the end of the path is reached" if self._has_arrived else self._loss
+
+    @property
+    def task_status(self) -> tuple[str, str | None] | None:
+        """The status of the task: ``ok``, ``lost`` or ``timeout``; None without a task."""
+        if self._loss is not None and not self._has_arrived:
+            return "lost", self._loss
+        if self._end_share is None or self._has_arrived or not self._signal.n:
+            return ("ok", None) if self._has_arrived else None
+        return "timeout", f"reached {self.details['share'] or 0.0:.3g} of the path"
+
+    @property
+    def _has_arrived(self) -> bool:
+        if self._end_share is None or self._path is None:
+            return False
+        return self._farthest_length >= self._end_share * self._path.length
 
     @property
     def value(self) -> float | None:
@@ -231,6 +275,11 @@ class PathFollowing(Measure):
         """The present values."""
         details = self.details
         return tuple(details[name] for name in self.log_header)
+
+    @property
+    def newest_sample(self) -> float | None:
+        """The present distance [m]."""
+        return self._signal.last_sample[0]
 
     @property
     def notes(self) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import RobotSpec, VisualSpec
 from ...scene.vehicle import VehicleSpec
 from ..body_names import object_body, vehicle_body
-from ..parts import object_models, visual_model
+from ..parts import object_models, placed_model, visual_model
 from ..resolved_scene import ResolvedScene
 from .fixed_mesh import FixedMesh
 from .ground import triangles_of
@@ -83,9 +83,10 @@ def collision_shapes(
     load = object_models(scene, data_path)
     for index, physics in objects.items():
         spec = scene.objects[index]
+        model, object_from_mesh = _contact_model(scene, spec, physics, load)
         shapes[object_body(index)] = shapes_of(
-            _contact_model(spec, physics, load),
-            _object_from_mesh(spec),
+            model,
+            object_from_mesh,
             physics.collision_shape_type,
             is_fixed=not physics.is_loose,
             up=_vertical_axis(spec, scene) if spec.is_ground else None,
@@ -168,8 +169,8 @@ def fixed_faces(
     """
     spec = scene.objects[index]
     world_from_object = scene.world_from_localized @ spec.localized_from_object
-    model = _contact_model(spec, physics, object_models(scene, data_path))
-    object_from_mesh = _object_from_mesh(spec)
+    load = object_models(scene, data_path)
+    model, object_from_mesh = _contact_model(scene, spec, physics, load)
     contacts = contact_mesh(scene, index, physics, data_path)
     if contacts is None:
         shapes = shapes_of(model, object_from_mesh, physics.collision_shape_type, is_fixed=True)
@@ -191,9 +192,10 @@ def fixed_box(
 ) -> Array:
     """Return the lower and upper corner of a fixed object's bounding box in W, (2, 3) [m]."""
     spec = scene.objects[index]
-    model = _contact_model(spec, physics, object_models(scene, data_path))
+    load = object_models(scene, data_path)
+    model, object_from_mesh = _contact_model(scene, spec, physics, load)
     world_from_object = scene.world_from_localized @ spec.localized_from_object
-    world_from_mesh = product(world_from_object.matrix, _object_from_mesh(spec))
+    world_from_mesh = product(world_from_object.matrix, object_from_mesh)
     corners = transform_points(model.box.corners(), world_from_mesh[:3, :3], world_from_mesh[:3, 3])
     return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
@@ -212,17 +214,17 @@ def contact_mesh(
     if physics.is_loose or physics.collision_shape_type not in TRIMESHES:
         return None
     spec = scene.objects[index]
-    model = _contact_model(spec, physics, object_models(scene, data_path))
+    load = object_models(scene, data_path)
+    model, object_from_mesh = _contact_model(scene, spec, physics, load)
     up = _vertical_axis(spec, scene) if spec.is_ground else None
-    return fixed_mesh_of(model, _object_from_mesh(spec), up=up, error=spec.contact_error)
+    return fixed_mesh_of(model, object_from_mesh, up=up, error=spec.contact_error)
 
 
-def _contact_model(spec: ObjectSpec, physics: PhysicsSpec, load: Callable[[str], Model]) -> Model:
-    return load(physics.collision_shape or spec.file)
-
-
-def _object_from_mesh(spec: ObjectSpec) -> Array:
-    return product(np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix)
+def _contact_model(
+    scene: SceneSpec, spec: ObjectSpec, physics: PhysicsSpec, load: Callable[[str], Model]
+) -> tuple[Model, Array]:
+    """Return the model of an object's contacts, and ``object_from_mesh``, (4, 4) [m]."""
+    return placed_model(scene, spec, load(physics.collision_shape or spec.file))
 
 
 def _vertical_axis(spec: ObjectSpec, scene: SceneSpec) -> Array:
