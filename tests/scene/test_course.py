@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.opened import open_scene
 from uwsim.errors import SceneError, UnknownName
-from uwsim.scene.course import CourseSpec
+from uwsim.scene.object import CourseSpec
 from uwsim.scene.reader import read_scene
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">

@@ -1,4 +1,4 @@
-"""Models that are repeated and bent along a line (`uwsim.scene.course` has the formula)."""
+"""Models that are repeated and bent along a line, by the formula of `uwsim.scene.object`."""
 
 from __future__ import annotations
 
@@ -46,9 +46,11 @@ class BentLine:
         axis = np.array([0.0, 0.0, 1.0])
         upper = _unit_rows(axis - directions * directions[:, 2:])
         side = np.cross(directions, upper)
-        bent = points + vertices[:, :1] * side + vertices[:, 2:] * upper
-        turned = normals[:, :1] * side + normals[:, 1:2] * directions + normals[:, 2:] * upper
-        return bent, turned
+        bent_vertices = points + vertices[:, :1] * side + vertices[:, 2:] * upper
+        turned_normals = (
+            normals[:, :1] * side + normals[:, 1:2] * directions + normals[:, 2:] * upper
+        )
+        return bent_vertices, turned_normals
 
     def _interpolate(self, values: Array, lengths: Array) -> Array:
         columns = [np.interp(lengths, self._lengths, values[:, i]) for i in range(3)]
@@ -75,8 +77,8 @@ def compute_burial(
         return np.zeros(len(lengths))
     period = total / stretches
     centre = (np.floor(np.clip(lengths / period, 0.0, stretches - 0.5)) + 0.5) * period
-    outside = np.abs(lengths - centre) - share * period / 2.0
-    part = np.clip(1.0 - outside / RAMP, 0.0, 1.0)
+    excess = np.abs(lengths - centre) - share * period / 2.0
+    part = np.clip(1.0 - excess / RAMP, 0.0, 1.0)
     depths: Array = depth * part * part * (3.0 - 2.0 * part)
     return depths
 
@@ -93,11 +95,11 @@ def bend_model(model: Model, object_from_mesh: Array, line: BentLine) -> Model:
         AssetError: the piece has no extent along y, or the copies have too many triangles.
     """
     matrix, position = object_from_mesh[:3, :3], object_from_mesh[:3, 3]
-    placed = [
+    pieces = [
         transform_points(m.vertices.astype(np.float64), matrix, position) for m in model.meshes
     ]
-    start = min(float(points[:, 1].min()) for points in placed)
-    piece = max(float(points[:, 1].max()) for points in placed) - start
+    start = min(float(points[:, 1].min()) for points in pieces)
+    piece = max(float(points[:, 1].max()) for points in pieces) - start
     if piece < 1e-3:
         raise AssetError(
             f"{model.name}: its extent along y is {piece:g} m; expected 0.001 m or more."
@@ -110,7 +112,7 @@ def bend_model(model: Model, object_from_mesh: Array, line: BentLine) -> Model:
     stretch = line.length / (n * piece)
     cofactors = inverse(matrix).T
     meshes = []
-    for mesh, vertices in zip(model.meshes, placed, strict=True):
+    for mesh, vertices in zip(model.meshes, pieces, strict=True):
         vertices[:, 1] = (vertices[:, 1] - start) * stretch
         normals = rotate_rows(cofactors, mesh.normals.astype(np.float64))
         normals = _unit_rows(normals / np.array([1.0, stretch, 1.0]))
@@ -122,13 +124,13 @@ def _repeat(mesh: Mesh, vertices: Array, normals: Array, n: int, line: BentLine)
     """Return n copies of a mesh whose y is the length along the first n-th of the line [m]."""
     copies = np.tile(vertices, (n, 1))
     copies[:, 1] += np.repeat(np.arange(n), len(vertices)) * (line.length / n)
-    bent, turned = line.bend(copies, np.tile(normals, (n, 1)))
+    bent_vertices, turned_normals = line.bend(copies, np.tile(normals, (n, 1)))
     offsets = (np.arange(n) * len(vertices)).astype(np.uint32)
     triangles = (mesh.triangles[None] + offsets[:, None, None]).reshape(-1, 3)
     return replace(
         mesh,
-        vertices=bent.astype(np.float32),
-        normals=turned.astype(np.float32),
+        vertices=bent_vertices.astype(np.float32),
+        normals=turned_normals.astype(np.float32),
         uvs=np.tile(mesh.uvs, (n, 1)),
         triangles=triangles.astype(np.uint32),
         tangents=None,

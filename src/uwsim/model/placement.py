@@ -18,8 +18,7 @@ from ..base.geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_
 from ..base.numerics.linear import length, product
 from ..base.numerics.polyline import Polyline
 from ..errors import Diagnostic, SceneError
-from ..scene.course import CourseSpec
-from ..scene.object import ObjectSpec, PhysicsSpec
+from ..scene.object import CourseSpec, ObjectSpec, PhysicsSpec
 from ..scene.on_floor import OnFloorSpec
 from ..scene.spec import SceneSpec, has_floor_placement
 from ..scene.urdf.kinematics import link_poses

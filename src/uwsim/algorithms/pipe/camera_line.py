@@ -34,7 +34,7 @@ from .guidance import GuidanceGains, LineGuidance
 from .line_detector import DetectedLine, LineDetector
 from .observed_line import GAINS
 
-AHEAD = 1.0
+AHEAD_DISTANCE = 1.0
 """The distance ahead of the base to the point to which the bow turns [m]."""
 
 STRAIGHT_ON = DetectedLine(0.0, 0.0, 0.0)
@@ -126,5 +126,5 @@ class PipeCamera:
         direction = np.array([1.0, line.slope, 0.0]) / math.sqrt(square)
         rise = self._altitude - self._number("altitude")
         error = np.array([-line.slope * offset / square, offset / square, rise])
-        ahead = np.array([AHEAD, offset + line.slope * AHEAD, 0.0])
-        return self._guidance.command(error, direction, ahead, dt)
+        target = np.array([AHEAD_DISTANCE, offset + line.slope * AHEAD_DISTANCE, 0.0])
+        return self._guidance.command(error, direction, target, dt)

@@ -48,25 +48,25 @@ class LineGuidance:
         self._integral = 0.0  # of the error to starboard of the line [m s]
 
     def command(
-        self, error: Array, direction: Array, ahead: Array, dt: float
+        self, error: Array, direction: Array, target: Array, dt: float
     ) -> tuple[Array, float]:
         """Compute the velocity (3,) [m/s] and the turn rate [rad/s].
 
         Args:
             error: the nearest point of the line, in base axes (3,) [m].
             direction: the direction of the line, in base axes (3,) [1].
-            ahead: a point of the line ahead, in base axes (3,) [m].
+            target: a point of the line ahead, in base axes (3,) [m].
             dt: the time since the last call [s].
         """
         gains = self._gains
         level = np.array([direction[0], direction[1], 0.0])
         level = level / (length(level) or 1.0)
         starboard = np.array([-level[1], level[0], 0.0])
-        across = dot(error, starboard)
+        cross_track = dot(error, starboard)
         bound = gains.limit / gains.ki if gains.ki > 0.0 else 0.0
-        self._integral = min(bound, max(-bound, self._integral + across * dt))
-        aim = gains.look_ahead * level + across * starboard
+        self._integral = min(bound, max(-bound, self._integral + cross_track * dt))
+        aim = gains.look_ahead * level + cross_track * starboard
         velocity = gains.speed * aim / length(aim) + gains.ki * self._integral * starboard
         velocity[2] = gains.kz * error[2]
-        bearing = float(elementwise.arctan2(float(ahead[1]), float(ahead[0])))
+        bearing = float(elementwise.arctan2(float(target[1]), float(target[0])))
         return np.clip(velocity, -gains.limit, gains.limit), gains.turn_gain * bearing

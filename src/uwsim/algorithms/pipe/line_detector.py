@@ -101,21 +101,21 @@ class LineDetector:
 
     def _fit(self, candidates: list[tuple[float, float]]) -> DetectedLine | None:
         """Fit the line near which the greatest number of candidates lie."""
-        nearest: list[tuple[float, float]] = []
+        largest_set: list[tuple[float, float]] = []
         for i, (x1, y1) in enumerate(candidates):
             for x2, y2 in candidates[i + 1 :]:
                 slope = (y2 - y1) / (x2 - x1)
                 if abs(slope) > MAX_SLOPE:
                     continue
-                near = [
+                members = [
                     (x, y) for x, y in candidates if abs(y - y1 - slope * (x - x1)) < self.tolerance
                 ]
-                if len(near) > len(nearest):
-                    nearest = near
-        if len(nearest) < max(3.0, self.min_share * N_BANDS):
+                if len(members) > len(largest_set):
+                    largest_set = members
+        if len(largest_set) < max(3.0, self.min_share * N_BANDS):
             return None
-        offset, slope = fit_line(nearest)
-        return DetectedLine(offset, slope, len(nearest) / N_BANDS)
+        offset, slope = fit_line(largest_set)
+        return DetectedLine(offset, slope, len(largest_set) / N_BANDS)
 
 
 MAX_SLOPE = 3.0

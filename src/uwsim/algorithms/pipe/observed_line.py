@@ -42,8 +42,8 @@ class PipeFollowing(ObservationController):
 
     def command(self, parts: Mapping[str, Array], dt: float) -> tuple[Array, float]:
         """Return the commanded velocity and the turn rate; see `ObservationController`."""
-        ahead = parts["pathAhead"][3:6]  # 1 m ahead
-        return self._guidance.command(parts["pathError"], parts["pathDirection"], ahead, dt)
+        target = parts["pathAhead"][3:6]  # 1 m ahead
+        return self._guidance.command(parts["pathError"], parts["pathDirection"], target, dt)
 
 
 class PipeStraight(ObservationController):

@@ -62,12 +62,12 @@ class Polyline:
             The segment of the nearest point, and the distance and the path's length as
             `find_nearest` returns them.
         """
-        nearest = self.find_nearest(segment, point)
+        place = self.find_nearest(segment, point)
         if segment + 1 < self.n_segments:
-            next_nearest = self.find_nearest(segment + 1, point)
-            if next_nearest[0] < nearest[0]:
-                return segment + 1, *next_nearest
-        return segment, *nearest
+            next_place = self.find_nearest(segment + 1, point)
+            if next_place[0] < place[0]:
+                return segment + 1, *next_place
+        return segment, *place
 
     def position(self, path_length: float) -> Array:
         """Return the point at a length from the start, limited to the path's ends, (3,) [m]."""
@@ -100,20 +100,18 @@ def round_corners(points: Array, radius: float, spacing: float) -> Array:
     if radius <= 0.0:
         return points
     parts = [points[:1]]
-    for before, corner, after in zip(points, points[1:], points[2:], strict=False):
-        parts.append(_round_corner(before, corner, after, radius, spacing))
+    for start, corner, end in zip(points, points[1:], points[2:], strict=False):
+        parts.append(_round_corner(start, corner, end, radius, spacing))
     return np.concatenate([*parts, points[-1:]]) if len(points) > 1 else points
 
 
-def _round_corner(
-    before: Array, corner: Array, after: Array, radius: float, spacing: float
-) -> Array:
+def _round_corner(start: Array, corner: Array, end: Array, radius: float, spacing: float) -> Array:
     """Return the points of the arc at a corner, (n, 3) [m]; the corner alone if there is none."""
-    sides = corner - before, after - corner
+    sides = corner - start, end - corner
     side_lengths = length(sides[0]), length(sides[1])
-    inward, outward = sides[0] / side_lengths[0], sides[1] / side_lengths[1]
-    cosine = dot(inward, outward)
-    sine = length(cross(inward, outward))
+    first_direction, last_direction = sides[0] / side_lengths[0], sides[1] / side_lengths[1]
+    cosine = dot(first_direction, last_direction)
+    sine = length(cross(first_direction, last_direction))
     turn = math.atan2(sine, cosine)
     if turn < MIN_TURN or math.pi - turn < MIN_TURN:
         return corner[None]
@@ -121,7 +119,9 @@ def _round_corner(
     arc_radius = tangent / math.tan(turn / 2.0)
     n = max(1, math.ceil(arc_radius * turn / spacing))
     angles = np.linspace(0.0, turn, n + 1)[:, None]
-    normal = (outward - cosine * inward) / sine
-    start = corner - tangent * inward
-    arc: Array = start + arc_radius * (inward * np.sin(angles) + normal * (1.0 - np.cos(angles)))
+    normal = (last_direction - cosine * first_direction) / sine
+    arc_start = corner - tangent * first_direction
+    arc: Array = arc_start + arc_radius * (
+        first_direction * np.sin(angles) + normal * (1.0 - np.cos(angles))
+    )
     return arc

@@ -22,9 +22,9 @@ from ...base.numerics.polyline import Polyline
 from ...world import World
 from ..measures import PathFollowingSpec
 
-AHEAD = (0.5, 1.0, 2.0)
+AHEAD_LENGTHS = (0.5, 1.0, 2.0)
 """The lengths of path from the nearest point to the observed points ahead [m]."""
-SIZE = 6 + 3 * len(AHEAD)
+SIZE = 6 + 3 * len(AHEAD_LENGTHS)
 """The number of numbers of a view."""
 
 
@@ -53,8 +53,8 @@ class PathView:
         segment = -1
         while segment != self._segment:  # the vehicle may have passed several
             segment = self._segment
-            self._segment, _, nearest = self._path.follow(segment, place)
-        points = [self._path.position(nearest + ahead) for ahead in (0.0, *AHEAD)]
+            self._segment, _, path_length = self._path.follow(segment, place)
+        points = [self._path.position(path_length + step) for step in (0.0, *AHEAD_LENGTHS)]
         vectors = [point - place for point in points]
         vectors.insert(1, self._path.direction(self._segment))
         view: Array = rotate_rows(frame_from_base.rotation.T.copy(), np.array(vectors)).ravel()
