@@ -9,6 +9,7 @@ import pytest
 
 from uwsim.algorithms.pipe.guidance import GuidanceGains, LineGuidance
 from uwsim.algorithms.pipe.line_detector import LineDetector, fit_line
+from uwsim.algorithms.pipe.observed_line import PipeStraight
 from uwsim.base.geometry import Intrinsics
 from uwsim.base.rng import stream
 
@@ -80,3 +81,8 @@ def test_a_fitted_line_is_that_of_least_squares() -> None:
     points = [(0.5, 0.1), (1.0, 0.4), (2.0, 0.3), (3.0, 0.9)]
     slope, offset = np.polyfit(*np.array(points).T, 1)
     assert fit_line(points) == pytest.approx((offset, slope))
+
+
+def test_the_control_condition_moves_straight_on() -> None:
+    velocity, turn = PipeStraight().command({}, 0.1)
+    assert (velocity.tolist(), turn) == ([0.3, 0.0, 0.0], 0.0)
