@@ -116,6 +116,7 @@ def benchmark_page() -> str:
         ActionSpec,
         ContactSpec,
         EnvironmentSpec,
+        ImageSpec,
         RelativePoseSpec,
         TopicFieldSpec,
     )
@@ -138,6 +139,7 @@ def benchmark_page() -> str:
     parts.append(_section("relativePose", RelativePoseSpec))
     parts.append(_section("contact", ContactSpec))
     parts.append(_section("topicField", TopicFieldSpec))
+    parts.append(_section("image", ImageSpec))
     parts.append(_section("action", ActionSpec))
     for title, form, table in families:
         parts.append(f"## {title}\n")

@@ -14,31 +14,39 @@ with an attribute ``layout`` receives them there: a dictionary of slices by name
 
 If several vehicles have policies, each has an object of the class, and topics of its own,
 ``VEHICLE/observation`` and ``VEHICLE/action``. An attribute ``agent`` receives the vehicle's name.
+
+If the environment observes images, the observation is that of `uwsim.envs.BenchmarkEnv`: a
+dictionary with ``state`` and the images, or a single image. Their topics are ``observation/NAME``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from typing import Any, Protocol, cast
 
 import numpy as np
+import numpy.typing as npt
 
 from ..base.geometry import Array
 from ..bus import Algorithm, Node
 from ..errors import UnknownName
-from ..messages import Empty, Float64MultiArray, MultiArrayLayout
+from ..messages import Empty, Float64MultiArray, Image, MultiArrayLayout, array_of
+from ..messages.observation import join_parts
 
 OBSERVATION, ACTION, START_SERVICE = "observation", "action", "startBench"
 """The topics of a policy, and the service that starts some benchmarks."""
 AGENTS = "agents"
 """The parameter with the names of the vehicles that have policies, if there are several."""
+IMAGES = "images"
+"""The parameter of a policy that has the topics of the observed images, separated by blanks."""
 
 
 class Policy(Protocol):
     """A function from an observation to an action."""
 
-    def __call__(self, observation: Array) -> Array:
+    def __call__(self, observation: Any) -> Array:
         """Return the action for an observation: numbers from -1 to 1, (m,)."""
 
 
@@ -56,12 +64,17 @@ class PolicyNode:
     def start(self, node: Node) -> None:
         """Subscribe to the observations of each vehicle, and start the benchmark."""
         agents = str(node.parameters.get(AGENTS, "")).split()
+        images = str(node.parameters.get(IMAGES, "")).split()
         for i, agent in enumerate(agents or [""]):
             policy = self._first_policy if i == 0 else self._make_policy()
             if agent and hasattr(policy, "agent"):
                 policy.agent = agent
             prefix = f"{agent}/" if agent else ""
             loop = _PolicyLoop(policy, node.publisher(prefix + ACTION, Float64MultiArray))
+            for topic in images:
+                name = topic.removeprefix(f"{prefix}{OBSERVATION}/")
+                if name != topic:
+                    node.subscribe(topic, Image, partial(loop.on_image, name))
             node.subscribe(prefix + OBSERVATION, Float64MultiArray, loop.on_observation)
         with suppress(UnknownName):
             node.call(START_SERVICE, Empty())
@@ -73,13 +86,18 @@ class _PolicyLoop:
     def __init__(self, policy: Policy, publish: Callable[[Float64MultiArray], None]) -> None:
         self._policy, self._publish = policy, publish
         self._layout: dict[str, slice] = {}
+        self._images: dict[str, npt.NDArray[Any]] = {}
+
+    def on_image(self, name: str, message: Image) -> None:
+        self._images[name] = array_of(message).copy()
 
     def on_observation(self, message: Float64MultiArray) -> None:
         if not self._layout:
             self._layout = slices_of(message)
             if hasattr(self._policy, "layout"):
                 self._policy.layout = self._layout
-        action = self._policy(message.data.copy())
+        state = message.data.copy() if message.data.size else None
+        action = self._policy(join_parts(state, self._images))
         data = np.asarray(action, dtype=np.float64).reshape(-1)
         layout = MultiArrayLayout(dim=[], data_offset=0)
         self._publish(Float64MultiArray(layout=layout, data=data))

@@ -8,7 +8,7 @@ from ..errors import Diagnostic, UnknownName, UwsimError
 from ..schema import Diagnostics, Spec, fields_of, line_of
 from ..world import Stage
 from .bind_part import Part, bind_part
-from .environment import Actuator, EnvironmentSpec, Observer
+from .environment import Actuator, EnvironmentSpec, Observer, bind_images
 from .spec import BenchmarkSpec
 from .updaters import chain
 
@@ -98,6 +98,7 @@ def _errors_of_environment(
         return
     for part, bind in (
         (spec.action, lambda: Actuator(spec, stage.world)),
+        (spec.image, lambda: bind_images(spec, stage.world)),
         (spec.topic_field, lambda: Observer(spec, benchmark.measures, stage.world, 1).close()),
     ):
         try:

@@ -175,7 +175,9 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     from ..runs.executors.background import BackgroundProcess
 
     errors, level_errors, folders = ErrorCollector(), ErrorCollector(), []
-    options.client_options.check(errors, options.processes.workers)
+    options.client_options.check(
+        errors, options.processes.workers, is_viewed=options.live_options.view
+    )
     with errors.collect():
         if options.ardupilot and options.px4:
             raise BadSetting("--ardupilot and --px4 exclude each other.")
@@ -224,7 +226,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
         print(note, file=sys.stderr)
     with (
         convert_to_run_failed(),
-        open_live_view(options.live_options, plans) as observer,  # first: it may fail at the port
+        open_live_view(options, plans) as observer,  # first: it may fail at the port
     ):
         if observer is not None:
             from ..runs.executors.executor import SerialExecutor
@@ -302,12 +304,19 @@ def is_piloted(plan: Plan) -> bool:
 
 
 @contextmanager
-def open_live_view(options: LiveOptions, plans: Sequence[Plan]) -> Iterator[TrialObserver | None]:
-    """Open the requested live view; a piloted run is in real time, and waits for a browser."""
+def open_live_view(options: BenchOptions, plans: Sequence[Plan]) -> Iterator[TrialObserver | None]:
+    """Open the requested live view.
+
+    A piloted run is in real time, and waits for a browser, as does a run with ``--speed``.
+    """
     has_pilot = any(map(is_piloted, plans))
-    title = Path(plans[0].benchmark.path).stem
-    speed = float(has_pilot)
-    with options.open_session(title, speed=speed, is_piloted=has_pilot, waits=has_pilot) as view:
+    title, speed = Path(plans[0].benchmark.path).stem, options.client_options.speed
+    with options.live_options.open_session(
+        title,
+        speed=float(has_pilot) if speed is None else speed,
+        is_piloted=has_pilot,
+        waits=has_pilot or speed is not None,
+    ) as view:
         yield view
 
 

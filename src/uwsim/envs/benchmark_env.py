@@ -2,30 +2,36 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import gymnasium
 import numpy as np
 import numpy.typing as npt
 from gymnasium.spaces import Box
 
-from ..base.geometry import Array
-from ..benchmark.environment.observer import MAX_OBSERVATION
 from ..editing import Benchmark, Scene
 from ..errors import BadSetting
+from ..messages.observation import Observation
 from ..runs.planning.trial_cache import TrialCache
 from .episode import Episode, environment_of, max_steps_of
+from .frames import Frame, FrameSource
 from .levels import draw_level, is_path, read_choices, vary_plan
-from .task import EnvironmentOptions, find_camera, make_task
+from .spaces import observation_space
+from .task import EnvironmentOptions, make_task
+
+if TYPE_CHECKING:
+    from ..viewer.live.session import LiveSession
 
 MAX_SEED = 2**31 - 1
 """The greatest seed that an environment draws for an episode without a seed."""
 Action = npt.NDArray[np.float32]
 
 
-class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy skips gymnasium
+class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  # mypy skips gymnasium
     """The environment of a benchmark file with ``<u:environment>``.
 
     Args:
@@ -40,14 +46,19 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         period: the time between two actions [s]; None: that of the file.
         settings: values to change in the scene and the updaters, as ``--set`` names them.
         data_path: more folders in which files are searched.
-        render_mode: ``rgb_array``, or None.
-        camera: the camera of the images; None: the first of the scene.
+        render_mode: ``rgb_array``; ``human``, a page for a browser, whose address is printed once;
+            or None.
+        camera: the camera of the images, or ``chase``, ``orbit``, ``top`` or ``viewer``, views from
+            outside (`uwsim.envs.frames`); None: the first camera of the scene, else ``orbit``.
+        frame_size: the width and height of the images [px]; None: those of the camera.
+        real_time_factor: the simulation time per wall time in the mode ``human`` [1]; 0: as fast as
+            possible.
 
     Raises:
         UwsimError: a file, a name or an option is invalid.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 20}  # noqa: RUF012
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 20}  # noqa: RUF012
 
     def __init__(
         self,
@@ -65,9 +76,16 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         data_path: Sequence[str | Path] = (),
         render_mode: str | None = None,
         camera: str | None = None,
+        frame_size: tuple[int, int] | None = None,
+        real_time_factor: float = 1.0,
     ) -> None:
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
-            raise BadSetting(f"render_mode is {render_mode!r}; expected 'rgb_array' or None.")
+            raise BadSetting(
+                f"render_mode is {render_mode!r}; expected 'rgb_array', 'human' or None. "
+                "(RenderCollection of Gymnasium gives lists of images.)"
+            )
+        if not real_time_factor >= 0.0:
+            raise BadSetting(f"real_time_factor is {real_time_factor!r}; expected at least 0.")
         options = EnvironmentOptions(
             observation=observation,
             action=action,
@@ -90,15 +108,18 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
             "render_fps": max(1, round(1.0 / environment_of(self._plan).period)),
         }
         self._cache = TrialCache()
+        self._page_stack = ExitStack()
+        self._page: LiveSession | None = None
         self._seed = 0
         self._episode: Episode | None = self._begin(0, {})
         self._is_over = True
         [self.layout] = self._episode.layouts
         """The name and the size of each part of the observation, in order."""
         size = sum(n for _, n in self.layout)
-        self.observation_space = Box(-MAX_OBSERVATION, MAX_OBSERVATION, (size,), np.float64)
+        self.observation_space = observation_space(size, self._episode.images[0])
         self.action_space = Box(-1.0, 1.0, (self._episode.n_actions[0],), np.float32)
-        self._camera = find_camera(self._plan, camera)
+        self._frames = FrameSource(self._plan.scene, camera, frame_size)
+        self._real_time_factor = real_time_factor
 
     @property
     def max_steps(self) -> int:
@@ -112,7 +133,7 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Array, dict[str, Any]]:
+    ) -> tuple[Observation, dict[str, Any]]:
         """Begin an episode.
 
         Args:
@@ -130,12 +151,13 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         episode_seed = int(self.np_random.integers(MAX_SEED)) if seed is None else seed
         if self._episode is not None:
             self._episode.close()
+        self._open_page()
         self._episode = self._begin(episode_seed, choices)
         self._is_over = False
         [observation] = self._episode.observe()
         return observation, self._info()
 
-    def step(self, action: Action) -> tuple[Array, float, bool, bool, dict[str, Any]]:
+    def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Apply an action for one period, or until the episode ends."""
         episode = self._episode
         if episode is None or self._is_over:
@@ -153,18 +175,35 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         is_terminated = self._is_over and not is_truncated
         return observation, reward, is_terminated, is_truncated, self._info()
 
-    def render(self) -> npt.NDArray[np.uint8] | None:
-        """Return the image of the camera, (h, w, 3); None without a render mode."""
-        if self.render_mode is None or self._episode is None:
+    def render(self) -> Frame | None:
+        """Return the present image, (h, w, 3), in the mode ``rgb_array``; otherwise None.
+
+        In the mode ``human``, the steps themselves are shown.
+        """
+        if self.render_mode != "rgb_array" or self._episode is None:
             return None
-        return self._episode.image(self._camera)
+        return self._frames.draw(self._episode.simulation)
 
     def close(self) -> None:
-        """Close the scene and its renderer."""
+        """Close the scene, its renderer and the page."""
         if self._episode is not None:
             self._episode.close()
             self._episode = None
+        self._page_stack.close()
+        self._page = None
         self._cache.close()
+
+    def _open_page(self) -> None:
+        """Open the page of the mode ``human``, unless it is open, and print its address."""
+        if self.render_mode != "human" or self._page is not None:
+            return
+        from ..viewer.live.open_session import open_session
+
+        self._page = self._page_stack.enter_context(
+            open_session(
+                Path(self._plan.benchmark.path).stem, report=_print, speed=self._real_time_factor
+            )
+        )
 
     def _begin(self, seed: int, choices: Mapping[str, float | tuple[float, float]]) -> Episode:
         self._seed = seed
@@ -172,7 +211,7 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
         self._variations = {path: value for path, value in choices.items() if is_path(path)}
         plan = vary_plan(self._plan, choices)
         self._variations |= {draw.path: draw.value for draw in plan.draws(seed)}
-        return Episode(plan, seed, self._level, self._cache)
+        return Episode(plan, seed, self._level, self._cache, self._page)
 
     def _info(self) -> dict[str, Any]:
         """Return the seed and the level and, at the end, the result of the benchmark."""
@@ -182,3 +221,8 @@ class BenchmarkEnv(gymnasium.Env[Array, Action]):  # type: ignore[misc]  # mypy 
             "variations": dict(self._variations),
             **({} if self._episode is None else self._episode.result()),
         }
+
+
+def _print(line: str) -> None:
+    """Print a line for the user on standard error."""
+    print(line, file=sys.stderr, flush=True)

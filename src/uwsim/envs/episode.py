@@ -6,12 +6,9 @@ level with the same seed, level and actions.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from typing import Any
-
-import numpy as np
-import numpy.typing as npt
 
 from ..base.expression import parse
 from ..base.geometry import Array
@@ -19,11 +16,14 @@ from ..benchmark.environment import EnvironmentSpec, RewardFunction
 from ..benchmark.spec import MAX_TASK_DURATION
 from ..benchmark.updaters import Level, interval
 from ..errors import BadSetting
+from ..messages.observation import Observation
 from ..runs.planning.plan import Plan
 from ..runs.planning.trial_cache import TrialCache
 from ..runs.trial.level_row import LevelRow, TrialEnd
 from ..runs.trial.trial import open_trial
+from ..runs.trial.trial_observer import TrialObserver
 from ..simulation import Simulation
+from ..world import ImageView
 from .task import trial_of
 
 
@@ -37,15 +37,24 @@ class Episode:
         seed: the seed of every random stream.
         level: the level of the benchmark.
         cache: the compiled scenes.
+        observer: the observer that shows the episode; None: none.
     """
 
-    def __init__(self, plan: Plan, seed: int, level: Level, cache: TrialCache) -> None:
+    def __init__(
+        self,
+        plan: Plan,
+        seed: int,
+        level: Level,
+        cache: TrialCache,
+        observer: TrialObserver | None = None,
+    ) -> None:
         self._plan, self._stack = plan, ExitStack()
         self.row: LevelRow | None = None
         """The result of the level, when it has ended."""
         trial = trial_of(seed, level)
         try:
-            execution = self._stack.enter_context(open_trial(plan, trial, cache=cache))
+            trial_context = open_trial(plan, trial, cache=cache, observer=observer)
+            execution = self._stack.enter_context(trial_context)
             self._execution, self._channels = execution, execution.channels
             self._rows = execution.rows()
             self._rewards = [
@@ -91,8 +100,13 @@ class Episode:
         """The number of numbers of an action of each agent."""
         return [channel.actuator.size for channel in self._channels]
 
-    def observe(self) -> list[Array]:
-        """Return the present observation of each agent."""
+    @property
+    def images(self) -> list[Mapping[str, ImageView]]:
+        """The observed images of each agent by name."""
+        return [channel.images for channel in self._channels]
+
+    def observe(self) -> list[Observation]:
+        """Return the present observation of each agent; images are taken anew by each call."""
         return [channel.take_observation() for channel in self._channels]
 
     def step(self, actions: Sequence[Array]) -> list[float]:
@@ -167,18 +181,6 @@ class Episode:
             "is_success": is_success,
             "success": is_success,
         }
-
-    def image(self, camera: str | None) -> npt.NDArray[np.uint8]:
-        """Return the present image of a camera, (h, w, 3).
-
-        Raises:
-            BadSetting: there is no camera.
-        """
-        if camera is None:
-            raise BadSetting("The scene has no <virtualCamera>; expected one to render.")
-        colour = self.simulation.image(camera).colour
-        assert colour is not None
-        return np.array(colour, dtype=np.uint8)
 
     def finish(self) -> TrialEnd | None:
         """Take the end of the trial, and close the scene."""

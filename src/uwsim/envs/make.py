@@ -31,6 +31,8 @@ class EnvOptions(TypedDict, total=False):
     data_path: Sequence[str | Path]
     render_mode: str | None
     camera: str | None
+    frame_size: tuple[int, int] | None
+    real_time_factor: float
 
 
 class ParallelOptions(TypedDict, total=False):

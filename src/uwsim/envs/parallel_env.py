@@ -7,22 +7,23 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
-from gymnasium.spaces import Box
+from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
 from ..base.geometry import Array
-from ..benchmark.environment.observer import MAX_OBSERVATION
 from ..editing import Benchmark, Scene
 from ..errors import BadSetting, UnknownName, did_you_mean
+from ..messages.observation import Observation
 from ..runs.planning.trial_cache import TrialCache
 from .benchmark_env import MAX_SEED, Action
 from .episode import Episode
+from .frames import Frame, FrameSource
 from .levels import OPTIONS, draw_level, is_path, read_choices, vary_plan
-from .task import AgentOptions, EnvironmentOptions, find_camera, make_agents_task
+from .spaces import observation_space
+from .task import AgentOptions, EnvironmentOptions, make_agents_task
 
 
-class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[misc]  # as Gymnasium
+class ParallelBenchmarkEnv(ParallelEnv[str, Observation, Action]):  # type: ignore[misc]  # as Gymnasium
     """The environment of a benchmark file with an ``<u:environment>`` for each of its agents.
 
     The agents are vehicles, by their names. All act at the same times, in one simulation, and their
@@ -38,7 +39,8 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
         settings: values to change in the scene and the updaters, as ``--set`` names them.
         data_path: more folders in which files are searched.
         render_mode: ``rgb_array``, or None.
-        camera: the camera of the images; None: the first of the scene.
+        camera: the camera or view of the images, as of `BenchmarkEnv`.
+        frame_size: the width and height of the images [px]; None: those of the camera.
 
     Raises:
         UwsimError: a file, a name or an option is invalid.
@@ -56,6 +58,7 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
         data_path: Sequence[str | Path] = (),
         render_mode: str | None = None,
         camera: str | None = None,
+        frame_size: tuple[int, int] | None = None,
     ) -> None:
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise BadSetting(f"render_mode is {render_mode!r}; expected 'rgb_array' or None.")
@@ -87,16 +90,16 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
         self.layouts = dict(zip(self.possible_agents, self._episode.layouts, strict=True))
         """The name and the size of each part of the observation of each agent, in order."""
         self.observation_spaces = {
-            agent: Box(-MAX_OBSERVATION, MAX_OBSERVATION, (sum(n for _, n in layout),), np.float64)
-            for agent, layout in self.layouts.items()
+            agent: observation_space(sum(n for _, n in self.layouts[agent]), images)
+            for agent, images in zip(self.possible_agents, self._episode.images, strict=True)
         }
         self.action_spaces = {
             agent: Box(-1.0, 1.0, (n,), np.float32)
             for agent, n in zip(self.possible_agents, self._episode.n_actions, strict=True)
         }
-        self._camera = find_camera(self._plan, camera)
+        self._frames = FrameSource(self._plan.scene, camera, frame_size)
 
-    def observation_space(self, agent: str) -> Box:
+    def observation_space(self, agent: str) -> Box | Dict:
         """Return the space of the observations of an agent."""
         return self.observation_spaces[agent]
 
@@ -106,7 +109,7 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dict[str, Array], dict[str, dict[str, Any]]]:
+    ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
         """Begin an episode of all agents; the arguments are those of `BenchmarkEnv.reset`.
 
         PettingZoo's checks pass options that no environment knows: these are ignored, unless they
@@ -130,7 +133,7 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
     def step(
         self, actions: Mapping[str, Action]
     ) -> tuple[
-        dict[str, Array],
+        dict[str, Observation],
         dict[str, float],
         dict[str, bool],
         dict[str, bool],
@@ -157,11 +160,11 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
             infos,
         )
 
-    def render(self) -> npt.NDArray[np.uint8] | None:
+    def render(self) -> Frame | None:
         """Return the image of the camera, (h, w, 3); None without a render mode."""
         if self.render_mode is None or self._episode is None:
             return None
-        return self._episode.image(self._camera)
+        return self._frames.draw(self._episode.simulation)
 
     def close(self) -> None:
         """Close the scene and its renderer."""
@@ -190,7 +193,7 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Array, Action]):  # type: ignore[mis
         self._variations |= {draw.path: draw.value for draw in plan.draws(seed)}
         return Episode(plan, seed, self._level, self._cache)
 
-    def _observe(self, episode: Episode) -> dict[str, Array]:
+    def _observe(self, episode: Episode) -> dict[str, Observation]:
         return dict(zip(self.possible_agents, episode.observe(), strict=True))
 
     def _infos(self, episode: Episode) -> dict[str, dict[str, Any]]:

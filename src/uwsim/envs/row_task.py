@@ -132,6 +132,8 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
         reasons.append("it observes topics")
     if spec.relations:
         reasons.append("it observes relations of bodies")
+    if spec.image:
+        reasons.append("it observes images")
     topics = [
         interface.topic
         for interface in model.scene.ros_interfaces

@@ -8,12 +8,13 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any, TypedDict, get_args
 
 from ..benchmark.environment import (
     ActionSpec,
     ContactSpec,
     EnvironmentSpec,
+    ImageSpec,
     RelativePoseSpec,
     TopicFieldSpec,
 )
@@ -26,7 +27,10 @@ from ..messages import Empty
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan import Plan, Trial
 from ..runs.planning.plan_request import PlanRequest
-from ..sensors.virtual_camera import VirtualCameraSpec
+from ..world import ImageContent
+
+IMAGE_CONTENTS: tuple[ImageContent, ...] = get_args(ImageContent)
+"""The contents of observed images."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +39,8 @@ class EnvironmentOptions:
 
     observation: Sequence[str] | None = None
     """The quantities of the state, as ``positionError``, fields of topics, as
-    ``/bluerov2/dvl:velocity``, and relations of bodies, as ``dock=pose(dock, bluerov2)`` and
+    ``/bluerov2/dvl:velocity``, images of sensors, as ``camera:image``, ``camera:grey=84x84`` or
+    ``camera:depth``, and relations of bodies, as ``dock=pose(dock, bluerov2)`` and
     ``touched=contact(dock, bluerov2)``."""
     action: Sequence[str] | None = None
     """The topics of the commands, as ``/bluerov2/thrusters``, with axes and limits as
@@ -215,9 +220,10 @@ def change_environment(
         changes["relative_pose"] = tuple(r for r in relations if isinstance(r, RelativePoseSpec))
         changes["contact"] = tuple(r for r in relations if isinstance(r, ContactSpec))
         names = [name for name in options.observation if ":" not in name and "(" not in name]
-        fields = [name.rsplit(":", 1) for name in options.observation if ":" in name]
+        parts = [_read_part(name) for name in options.observation if ":" in name]
         changes["observation"] = " ".join(names)
-        changes["topic_field"] = tuple(TopicFieldSpec(topic=t, field=f) for t, f in fields)
+        changes["topic_field"] = tuple(part for part in parts if isinstance(part, TopicFieldSpec))
+        changes["image"] = tuple(part for part in parts if isinstance(part, ImageSpec))
     if options.action is not None:
         changes["action"] = tuple(read_action(text) for text in options.action)
     if spec is None:
@@ -231,21 +237,25 @@ def change_environment(
     return replace(spec, **changes)
 
 
-def find_camera(plan: Plan, name: str | None) -> str | None:
-    """Return the camera of the images: that of a name, or the first; None if there is none.
+def _read_part(text: str) -> TopicFieldSpec | ImageSpec:
+    """Read a part of an observation: ``TOPIC:FIELD``, or ``SENSOR:CONTENT`` with ``=WxH``.
 
     Raises:
-        UnknownName: the scene has no camera of that name.
+        BadSetting: the size of an image is invalid.
     """
-    names = [
-        spec.name
-        for vehicle in plan.scene.vehicles
-        for spec in vehicle.parts
-        if isinstance(spec, VirtualCameraSpec)
-    ]
-    if name is not None and name not in names:
-        raise UnknownName("camera", name, names)
-    return name or (names[0] if names else None)
+    name, field = text.rsplit(":", 1)
+    word, has_size, size = field.partition("=")
+    for content in IMAGE_CONTENTS:
+        if word != content or name.startswith("/"):
+            continue
+        match = re.fullmatch(r"([1-9]\d{0,3})x([1-9]\d{0,3})", size)
+        if match is None and has_size:
+            raise BadSetting(
+                f"observation {text!r}: the size is {size!r}; expected 'camera:{content}=128x96'."
+            )
+        width, height = (None, None) if match is None else (int(match[1]), int(match[2]))
+        return ImageSpec(sensor=name, content=content, width=width, height=height)
+    return TopicFieldSpec(topic=name, field=field)
 
 
 def read_relation(text: str) -> RelativePoseSpec | ContactSpec:

@@ -50,7 +50,11 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
         data_path: Sequence[str | Path] = (),
         render_mode: str | None = None,
         camera: str | None = None,
+        frame_size: tuple[int, int] | None = None,
+        real_time_factor: float = 1.0,
     ) -> None:
+        if render_mode == "human" and num_envs > 1:
+            raise BadSetting("render_mode='human' shows one environment; expected num_envs=1.")
         make = partial(
             BenchmarkEnv,
             benchmark,
@@ -66,6 +70,8 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
             data_path=data_path,
             render_mode=render_mode,
             camera=camera,
+            frame_size=frame_size,
+            real_time_factor=real_time_factor,
         )
         super().__init__([make] * num_envs, autoreset_mode=autoreset_mode)
 

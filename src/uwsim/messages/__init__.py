@@ -12,10 +12,12 @@ adapter for ROS 1 adds ``seq``.
 from __future__ import annotations
 
 from .build import (
+    array_of,
     depth_image,
     floats,
     header,
     image,
+    image_of,
     label_image,
     numbers_of,
     pixels_of,
@@ -141,10 +143,12 @@ __all__ = [
     "Vector3",
     "Wrench",
     "WrenchStamped",
+    "array_of",
     "depth_image",
     "floats",
     "header",
     "image",
+    "image_of",
     "label_image",
     "numbers_of",
     "pixels_of",

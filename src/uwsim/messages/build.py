@@ -62,6 +62,21 @@ def depth_image(depth: npt.NDArray[np.float64], *, time: float, frame_id: str = 
     return _one_channel(depth, "32FC1", "<f4", header(time, frame_id))
 
 
+def image_of(values: npt.NDArray[Any], *, time: float) -> Image:
+    """Build the image of values (h, w, 3) or (h, w, 1): of 8 or 16 bit, or of depths (float32)."""
+    one_channel = values[..., 0]
+    if values.dtype == np.float32:
+        return depth_image(one_channel, time=time)
+    return image(values if values.shape[2] == 3 else one_channel, time=time)
+
+
+def array_of(message: Image) -> npt.NDArray[Any]:
+    """Return the values of an image of `image_of`, (h, w, 3) or (h, w, 1), without a copy."""
+    encoding = message.encoding
+    number_type = "<f4" if encoding == "32FC1" else "<u2" if encoding in WIDE_ENCODINGS else "u1"
+    return message.data.view(number_type).reshape(message.height, message.width, -1)
+
+
 def label_image(labels: npt.NDArray[np.uint16], *, time: float, frame_id: str = "") -> Image:
     """Build a ``16UC1`` image from whole numbers (h, w); row 0 is the top."""
     return _one_channel(labels, "16UC1", "<u2", header(time, frame_id))

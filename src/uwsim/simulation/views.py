@@ -35,6 +35,12 @@ ORBIT_BEARINGS = (35.0, -35.0, 145.0, -145.0, 80.0, -80.0, 0.0, 180.0)
 """The tried bearings of the camera from the bow, positive to starboard; the best first [deg]."""
 ORBIT_ELEVATIONS = (25.0, 50.0, 10.0)
 """The tried elevations of the camera above the horizon [deg]."""
+CHASE_DISTANCE = 3.0
+"""The distance of the chase camera behind the vehicle, as a multiple of the radius of the focus."""
+CHASE_HEIGHT = 1.1
+"""The height of the chase camera above the vehicle, as a multiple of the same radius."""
+MAX_CHASE_RADIUS = 2.0
+"""The greatest radius of the focus for the chase camera [m]."""
 VISIBILITY_IMAGE_SIZE: Size = (96, 72)
 """The width and height of the images that measure the visible share [px]."""
 NEAR_PLANE = 0.05
@@ -71,6 +77,11 @@ class Focus:
         """The centre of the bounding box of the corners in W, (3,) [m]."""
         centre: Array = 0.5 * (self.corners.min(axis=0) + self.corners.max(axis=0))
         return centre
+
+    @property
+    def radius(self) -> float:
+        """The radius: half the diagonal of the bounding box of the corners [m]."""
+        return 0.5 * float(np.linalg.norm(np.ptp(self.corners, axis=0)))
 
 
 def viewer_view(simulation: Simulation, spec: ViewerCameraSpec, size: Size) -> View:
@@ -138,6 +149,20 @@ def orbit_view(simulation: Simulation, size: Size) -> View:
             break
     assert best_pose is not None
     return View(best_pose, intrinsics, is_clear=True)
+
+
+def chase_pose(position: Array, bow_direction: Array, radius: float) -> Pose:
+    """Return the pose in W of a camera behind and above a vehicle.
+
+    Args:
+        position: the position of the vehicle in W, (3,) [m].
+        bow_direction: the horizontal unit vector towards its bow in W, (3,).
+        radius: the radius of the focus, which counts as 2 m at most [m].
+    """
+    scale = min(radius, MAX_CHASE_RADIUS)
+    eye = position - CHASE_DISTANCE * scale * bow_direction + CHASE_HEIGHT * scale * UP
+    view = position + 0.5 * scale * bow_direction - eye
+    return Pose(eye, camera_axes(view / np.linalg.norm(view), UP))
 
 
 def find_focus(simulation: Simulation) -> Focus:

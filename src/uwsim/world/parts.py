@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -166,6 +166,32 @@ class Camera(Protocol):
     @property
     def n_images(self) -> int | None:
         """The number of images due on the camera's topics so far; None if it has no topic."""
+
+
+ImageContent = Literal["image", "grey", "depth"]
+"""The content of an observed image: the sensor's own, grey values, or depths."""
+
+
+class ImageView(Protocol):
+    """The images of a camera or a sonar, rendered when they are read.
+
+    They are uint8, uint16 (0 to 4095) or, with depths, float32; row 0 is the top.
+    """
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """The height, the width, and the number of channels: 3, or 1 without colours."""
+
+    @property
+    def number_type(self) -> type[np.uint8 | np.uint16 | np.float32]:
+        """The type of the numbers."""
+
+    @property
+    def maximum(self) -> float:
+        """The greatest number; the least is 0."""
+
+    def read(self) -> npt.NDArray[Any]:
+        """Take the present image."""
 
 
 @dataclass(frozen=True)

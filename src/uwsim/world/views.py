@@ -26,6 +26,8 @@ from .parts import (
     Camera,
     Contact,
     Flow,
+    ImageContent,
+    ImageView,
     LineOfSight,
     Rays,
     WaterSurface,
@@ -94,6 +96,21 @@ class World(TimedWorld, Protocol):
 
     def camera(self, name: str) -> Camera:
         """Return a virtual camera; raise UnknownName if there is none."""
+
+    def image_view(
+        self, name: str, content: ImageContent, size: tuple[int, int] | None
+    ) -> ImageView:
+        """Return the images of a camera or a sonar, with noise of their own.
+
+        Args:
+            name: the name of the sensor.
+            content: the content of the images.
+            size: the width and height of a camera's images [px]; None: those of the sensor.
+
+        Raises:
+            UnknownName: there is no such sensor.
+            BadSetting: the sensor has no such content or size.
+        """
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of a name, which the seed of the run determines."""

@@ -1,18 +1,18 @@
 """The learning environment of a benchmark, ``<u:environment>``: observations, actions, reward.
 
 `spec` has the elements, `channels` the quantities of a vehicle's state, `topic_fields` the numbers
-of messages, `relations` the poses and contacts of bodies, `observer` the vector of observations,
-`actuator` the commands, and `reward` the formulas.
+of messages, `relations` the poses and contacts of bodies, `observer` the vector of observations and
+the images, `actuator` the commands, and `reward` the formulas.
 """
 
 from __future__ import annotations
 
 from .actuator import Actuator
 from .channels import CHANNELS
-from .observer import Observer
+from .observer import Observer, bind_images
 from .relations import ContactSpec, RelativePoseSpec
 from .reward import REWARD_NAMES, RewardFunction
-from .spec import ActionSpec, EnvironmentSpec, TopicFieldSpec
+from .spec import ActionSpec, EnvironmentSpec, ImageSpec, TopicFieldSpec
 
 __all__ = [
     "CHANNELS",
@@ -21,8 +21,10 @@ __all__ = [
     "Actuator",
     "ContactSpec",
     "EnvironmentSpec",
+    "ImageSpec",
     "Observer",
     "RelativePoseSpec",
     "RewardFunction",
     "TopicFieldSpec",
+    "bind_images",
 ]

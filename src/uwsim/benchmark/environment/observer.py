@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...base.geometry import Array
-from ...world import World
+from ...world import ImageView, World
 from ..measures import MeasureSpec
 from ..metrics.reference import Reference
 from .channels import CHANNELS, VehicleState
@@ -20,9 +20,23 @@ MAX_OBSERVATION = 1e6
 """The bound to which the numbers of an observation are limited."""
 
 
+def bind_images(spec: EnvironmentSpec, world: World) -> dict[str, ImageView]:
+    """Return the observed images by name.
+
+    Raises:
+        UnknownName: the scene lacks a camera or sonar.
+        BadSetting: a sensor has no such images.
+    """
+    return {
+        image.name: world.image_view(image.sensor, image.content, image.size)
+        for image in spec.image
+    }
+
+
 def limit_numbers(parts: Sequence[Array]) -> Array:
     """Return the parts of an observation as one vector, limited to `MAX_OBSERVATION`."""
-    numbers: Array = np.clip(np.concatenate(parts, axis=-1), -MAX_OBSERVATION, MAX_OBSERVATION)
+    vector = np.concatenate(parts, axis=-1) if parts else np.zeros(0)
+    numbers: Array = np.clip(vector, -MAX_OBSERVATION, MAX_OBSERVATION)
     return numbers
 
 

@@ -8,6 +8,7 @@
       <relativePose> <name>dock</name> <from>bluerov2</from> <to>dock</to> </relativePose>
       <contact> <name>touched</name> <target>bluerov2</target> <other>dock</other> </contact>
       <topicField> <topic>/bluerov2/dvl</topic> <field>velocity</field> </topicField>
+      <image> <sensor>camera</sensor> <width>128</width> <height>96</height> </image>
       <action> <topic>/bluerov2/thrusters</topic> </action>
       <reward>exp(-offset) - 0.01*effort</reward>
       <success>offset &lt; 0.1</success>
@@ -21,7 +22,9 @@ from dataclasses import dataclass
 
 from ...base.expression import ScoreError, parse
 from ...errors import did_you_mean
+from ...messages.observation import STATE
 from ...schema import Numbers, Spec, element
+from ...world import ImageContent
 from ..measures import MeasureSpec, PathFollowingSpec, PositionErrorSpec, TrackingErrorSpec
 from ..metrics.held_commands import TWIST_UNITS, WRENCH_UNITS
 from ..reference_trajectory import TrajectorySpec
@@ -46,6 +49,37 @@ class TopicFieldSpec(Spec):
     with fields of its own."""
     size: int = element(default=1, minimum=1, maximum=MAX_SIZE)
     """The number of numbers, if the field is an array."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImageSpec(Spec):
+    """An ``<image>`` element: the image of a camera or a sonar at the time of the observation.
+
+    It has the noise of the sensor, and does not depend on the rate of the sensor's topics: the n-th
+    observed image has the noise of the n-th image on a topic. The faults of a sensor are not in it.
+    """
+
+    sensor: str
+    """The name of the camera, the depth camera or the sonar."""
+    content: ImageContent = "image"
+    """The sensor's own image (``image``), the ``grey`` values of a colour camera, or the ``depth``
+    along the optical axis of a camera [m]; no surface: the distance of the far plane."""
+    width: int | None = element(default=None, minimum=1, maximum=MAX_SIZE)
+    """The width at which a camera is rendered; by default its own [px]."""
+    height: int | None = element(default=None, minimum=1, maximum=MAX_SIZE)
+    """The height at which a camera is rendered; by default its own [px]."""
+
+    @property
+    def name(self) -> str:
+        """The name of the image in observations: that of the sensor, with ``_depth`` for depths."""
+        return f"{self.sensor}_depth" if self.content == "depth" else self.sensor
+
+    @property
+    def size(self) -> tuple[int, int] | None:
+        """The width and height [px]; None: those of the sensor."""
+        if self.width is None or self.height is None:
+            return None
+        return self.width, self.height
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,6 +120,8 @@ class EnvironmentSpec(Spec):
     """The observed contacts, which follow the poses."""
     topic_field: tuple[TopicFieldSpec, ...] = ()
     """The observed numbers of messages, which follow the contacts."""
+    image: tuple[ImageSpec, ...] = ()
+    """The observed images."""
     action: tuple[ActionSpec, ...]
     """The commands of which an action consists."""
     reward: str = "0"
@@ -163,9 +199,13 @@ class EnvironmentSpec(Spec):
                     f"{channel} in <observation> needs a <reference> to a <pathFollowing> with "
                     "<u:path>",
                 )
-        if not self.channels and not self.topic_field and not self.relations:
-            yield "observation", "nothing is observed; expected <observation> or <topicField>"
+        if not (self.channels or self.topic_field or self.relations or self.image):
+            yield (
+                "observation",
+                "nothing is observed; expected <observation>, <topicField> or <image>",
+            )
         yield from self._relation_errors([*names, *REWARD_NAMES])
+        yield from self._image_errors()
         if not self.action:
             yield "action", "there is no <action>; expected one at least"
         yield from self._reference_errors(measures)
@@ -208,6 +248,14 @@ class EnvironmentSpec(Spec):
                 f"{did_you_mean(self.reference, known_names)} "
                 f"Known: {', '.join(known_names) or 'none'}",
             )
+
+    def _image_errors(self) -> Iterator[tuple[str, str]]:
+        names = [image.name for image in self.image]
+        for index, image in enumerate(self.image):
+            if image.name == STATE or image.name in names[:index]:
+                yield "image", f"two parts of an observation have the name {image.name[:60]!r}"
+            if (image.width is None) != (image.height is None):
+                yield "image", f"the image of {image.sensor[:60]!r} needs <width> and <height>"
 
     def _action_errors(self) -> Iterator[tuple[str, str]]:
         for action in self.action:

@@ -81,7 +81,8 @@ class ClientOptions:
             PROGRAMS,
             "--speed",
             metavar="X",
-            help="For --sync none: simulation time per real time.  [1]",
+            help="For --sync none and --view: simulation time per real time. With --view the run "
+            "then waits for a browser.  [--sync none: 1, --view: as fast as possible]",
         ),
     ] = None
     web: WebOption = None
@@ -94,8 +95,8 @@ class ClientOptions:
     ros2: Ros2Option = False
     domain: DomainOption = None
 
-    def check(self, errors: ErrorCollector, workers: str) -> None:
-        """Collect the errors of the options."""
+    def check(self, errors: ErrorCollector, workers: str, *, is_viewed: bool = False) -> None:
+        """Collect the errors of the options; ``is_viewed``: the run is shown in a browser."""
         self._connections.check(errors)
         with errors.collect():
             if self.client is not None and not self.client.strip():
@@ -112,16 +113,16 @@ class ClientOptions:
                 raise BadSetting(
                     f"--workers {workers}: --client {self.client} is one program; expected 1."
                 )
-        self._check_sync(errors)
+        self._check_sync(errors, is_viewed=is_viewed)
 
-    def _check_sync(self, errors: ErrorCollector) -> None:
+    def _check_sync(self, errors: ErrorCollector, *, is_viewed: bool) -> None:
         from ...middleware.lockstep.spec import read_sync
 
         sync = self.sync or "ack"
         requirements = {
             "--output": (self.output, ("output",)),
             "--settle": (self.settle, ("output", "step")),
-            "--speed": (self.speed, ("none",)),
+            "--speed": (None if is_viewed else self.speed, ("none",)),
             "--client-secret-file": (self.client_secret_file, ("ack",)),
         }
         for name, (value, kinds) in requirements.items():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -84,26 +83,19 @@ class LiveOptions:
         if not self.view:
             yield None
             return
-        from ...viewer.document import document
         from ...viewer.live.mapping import PilotMapping, read_mapping
-        from ...viewer.live.server import LiveServer
-        from ...viewer.live.session import LiveSession
+        from ...viewer.live.open_session import open_session
 
         mapping = None
         if is_piloted:
             mapping = read_mapping(self.pilot_mapping) if self.pilot_mapping else PilotMapping()
-        server = LiveServer(lambda: document(title, None), self.port or 0)
-        session = LiveSession(
-            server,
-            real_time_factor=speed,
+        with open_session(
+            title,
+            report=lambda text: typer.echo(text, err=True),
+            port=self.port or 0,
+            speed=speed,
             mapping=mapping,
-            waits_for_page=waits,
-            allows_reset=resets,
-            report=lambda text: print(text, file=sys.stderr),
-        )
-        typer.echo(f"view: {server.url}", err=True)
-        try:
+            waits=waits,
+            resets=resets,
+        ) as session:
             yield session
-        finally:
-            session.end("The run has ended.")
-            server.close()

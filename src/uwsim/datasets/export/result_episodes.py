@@ -34,8 +34,8 @@ def run_episodes(
         on_level: a function that is called after each level.
 
     Raises:
-        BadSetting: the benchmark has no environment or several, its levels follow each other in one
-            trial, or the algorithm is no policy.
+        BadSetting: the benchmark has no environment or several, or observes images; its levels
+            follow each other in one trial; or the algorithm is no policy.
         ResultError: a level has another total than the stored one.
     """
     if plan.benchmark.environment is None:
@@ -47,6 +47,11 @@ def run_episodes(
         raise BadSetting(
             f"{plan.benchmark.path}: has environments of {len(plan.benchmark.environments)} "
             "vehicles; expected a benchmark with one <u:environment>."
+        )
+    if plan.benchmark.environment.image:
+        raise BadSetting(
+            f"{plan.benchmark.path}: the environment observes images; expected a vector. "
+            "Images are exported from recordings (uwsim bench --record)."
         )
     levels = [(trial, level) for trial in trials for level in trial.levels]
     if not all(trial.is_independent for trial in trials):
@@ -86,16 +91,17 @@ def run_episode(
                 f"Seed {seed}, {level}: the total is {episode.row.total}, and {total} in the "
                 "result. Compare them with: uwsim verify."
             )
+        vectors = np.array(observations, dtype=np.float64)
         return Episode(
             rate=1.0 / spec.period,
             times=np.arange(len(actions), dtype=np.float64) * spec.period,
-            observations=np.array(observations[:-1]),
+            observations=vectors[:-1],
             observation_names=_number_names(episode.layouts[0]),
             actions=np.array(actions),
             action_names=_number_names(episode.action_layouts[0]),
             outcome=Outcome(
                 rewards=np.array(rewards),
-                final_observation=observations[-1],
+                final_observation=vectors[-1],
                 is_terminated=not episode.is_truncated,
                 is_success=episode.is_success(),
             ),

@@ -2,8 +2,10 @@
 
 A benchmark with ``<u:environment>`` publishes the vector of observations on ``observation``
 (std_msgs/Float64MultiArray, a labelled dimension for each part) every ``<period>``, from step 0
-on. The newest message on ``action`` becomes commands before the next step of the simulation. A
-policy is thus an algorithm like any other; `uwsim.envs` uses the same object without messages.
+on. Each image is published before it on ``observation/NAME`` (sensor_msgs/Image), if the topic has
+a subscriber. The newest message on ``action`` becomes commands before the next step of the
+simulation. A policy is thus an algorithm like any other; `uwsim.envs` uses the same object without
+messages.
 
 With several ``<u:environment>``, each vehicle has topics of its own, ``VEHICLE/observation`` and
 ``VEHICLE/action``, and the algorithm's parameter ``agents`` has the names of the vehicles.
@@ -15,20 +17,23 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ...algorithms.policy import ACTION, AGENTS, IMAGES, OBSERVATION, is_policy
 from ...base.geometry import Array
-from ...benchmark.environment import Actuator, EnvironmentSpec, Observer
+from ...benchmark.environment import Actuator, EnvironmentSpec, Observer, bind_images
 from ...benchmark.environment.channels import VehicleState
 from ...benchmark.measures import MeasureSpec
 from ...benchmark.spec import BenchmarkSpec
 from ...bus import Algorithm
 from ...errors import BadMessage
-from ...messages import Float64MultiArray, MultiArrayDimension, MultiArrayLayout
+from ...messages import (
+    Float64MultiArray,
+    Image,
+    MultiArrayDimension,
+    MultiArrayLayout,
+    image_of,
+)
+from ...messages.observation import Observation, join_parts
 from ...simulation import Simulation
-
-OBSERVATION, ACTION = "observation", "action"
-"""The names of the topics."""
-AGENTS = "agents"
-"""The parameter of an algorithm with the names of the vehicles that have policies."""
 
 
 class PolicyChannel:
@@ -61,6 +66,8 @@ class PolicyChannel:
         """The commands of an action."""
         self.observer = Observer(spec, measures, world, self.actuator.size)
         """The reader of observations."""
+        self.images = bind_images(spec, world)
+        """The observed images by name."""
         self.last_action = np.zeros(self.actuator.size)
         """The last action, (n,); 0 before the first."""
         self.has_acted = False
@@ -76,15 +83,23 @@ class PolicyChannel:
             data_offset=0,
         )
         self._publish = simulation.bus.publisher(self._observation_topic, Float64MultiArray)
+        self._publish_image = {
+            name: simulation.bus.publisher(f"{self._observation_topic}/{name}", Image)
+            for name in self.images
+        }
         self._unsubscribe = simulation.bus.subscribe(
             self._action_topic, Float64MultiArray, self._receive, check=self._check
         )
         self._stop = simulation.world.schedule.create_timer(1.0 / spec.period, self._observe)
 
-    def take_observation(self) -> Array:
-        """Return the present observation, (n,)."""
+    def take_observation(self) -> Observation:
+        """Return the present observation: the vector of numbers, (n,), and images, if it has any.
+
+        Each call takes new images, with new noise.
+        """
         self.is_due = False
-        return self.observer.read(self.last_action)
+        state = self.observer.read(self.last_action) if self.observer.size else None
+        return join_parts(state, {name: view.read() for name, view in self.images.items()})
 
     def state(self) -> VehicleState:
         """Return the present state of the vehicle."""
@@ -111,6 +126,10 @@ class PolicyChannel:
 
     def _observe(self) -> None:
         self.is_due = True
+        for name, view in self.images.items():
+            if self._simulation.bus.has_subscribers(f"{self._observation_topic}/{name}"):
+                pixels = view.read()
+                self._publish_image[name](image_of(pixels, time=self._simulation.time))
         if self._simulation.bus.has_subscribers(self._observation_topic):
             observation = self.observer.read(self.last_action)
             self._publish(Float64MultiArray(layout=self._layout, data=observation))
@@ -155,3 +174,17 @@ def agent_parameters(benchmark: BenchmarkSpec, algorithm: type[Algorithm]) -> di
     defaults: object = getattr(algorithm, "PARAMETERS", {AGENTS: ""})
     has_parameter = isinstance(defaults, Mapping) and AGENTS in defaults
     return {AGENTS: " ".join(agents)} if agents and has_parameter else {}
+
+
+def image_parameters(benchmark: BenchmarkSpec, algorithm: type[Algorithm]) -> dict[str, str]:
+    """Return the parameter ``images``: the topics of observed images, separated by blanks.
+
+    It is empty if there are no images, or if the algorithm is no policy.
+    """
+    agents = agents_of(benchmark)
+    topics = [
+        f"{spec.vehicle}/{OBSERVATION}/{image.name}" if agents else f"{OBSERVATION}/{image.name}"
+        for spec in benchmark.environments
+        for image in spec.image
+    ]
+    return {IMAGES: " ".join(topics)} if topics and is_policy(algorithm) else {}

@@ -49,7 +49,7 @@ from .make_algorithm import make_algorithm, reported_parameters, unread_paramete
 from .motion_recorder import MotionRecorder
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
-from .policy_channel import agent_parameters, open_channels
+from .policy_channel import agent_parameters, image_parameters, open_channels
 from .prelude import prelude_levels
 from .status import SIMULATION_ERROR, StatusMonitor, to_line
 from .trial_observer import TrialObserver
@@ -174,6 +174,7 @@ class TrialExecution:
             **scene_parameters,
             **known_corners(plan),
             **agent_parameters(benchmark, plan.algorithm.cls),
+            **image_parameters(benchmark, plan.algorithm.cls),
             **plan.algorithm.parameters,
         }
         self._algorithm = make_algorithm(

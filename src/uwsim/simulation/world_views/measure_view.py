@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from ...base.geometry import Array
 from ...errors import UnknownName
+from ...world import ImageContent, ImageView
+from ..access.image_views import bind_image_view
 from ..physical_scene import PhysicalScene
 from ..scene_sensors import SceneSensors
 from .scene_view import SceneView
@@ -14,6 +16,7 @@ class MeasureView(SceneView):
 
     def __init__(self, scene: PhysicalScene, sensors: SceneSensors) -> None:
         super().__init__(scene)
+        self._scene, self._sensors = scene, sensors
         self.world_from_localized = scene.model.scene.world_from_localized
         """The pose of L, the frame of the scene file, in W."""
         self.compatibility = scene.model.compatibility
@@ -40,3 +43,19 @@ class MeasureView(SceneView):
         item = courses[name]
         assert item.course is not None
         return (scene.world_from_localized @ item.localized_from_object).transform(item.course.line)
+
+    def image_view(
+        self, name: str, content: ImageContent, size: tuple[int, int] | None
+    ) -> ImageView:
+        """Return the images of a camera or a sonar, with noise of their own.
+
+        Args:
+            name: the name of the sensor.
+            content: the content of the images.
+            size: the width and height of a camera's images [px]; None: those of the sensor.
+
+        Raises:
+            UnknownName: there is no such sensor.
+            BadSetting: the sensor has no such content or size.
+        """
+        return bind_image_view(self._scene, self._sensors, name, content, size)

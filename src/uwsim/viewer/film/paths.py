@@ -11,8 +11,7 @@ import numpy as np
 from ...base.geometry import Array, Intrinsics, Pose, rotation_z
 from ...base.numerics.linear import product
 from ...errors import BadSetting, did_you_mean
-from ...scene.mounts import camera_axes
-from ...simulation.views import Size, find_focus, orbit_view
+from ...simulation.views import Size, chase_pose, find_focus, orbit_view
 from .trial_scene import TrialScene, frame_at
 
 ViewKind = Literal["orbit", "chase", "fixed", "camera"]
@@ -23,11 +22,6 @@ ORBIT_PERIOD = 40.0
 """The period of the azimuth in the orbit [s of simulation time]."""
 SMOOTHING_TIME = 1.5
 """The standard deviation of the Gaussian that smooths the path of the camera [s]."""
-CHASE_DISTANCE = 3.0
-"""The distance of the chase camera behind the vehicle, as a multiple of the radius of the focus
-(the vehicles and nearby objects), which counts as 2 m at most."""
-CHASE_HEIGHT = 1.1
-"""The height of the chase camera above the vehicle, as a multiple of the same radius."""
 
 
 def view_kind(text: str) -> ViewKind:
@@ -69,7 +63,7 @@ class CameraPath:
         """The intrinsics of the camera."""
         self._initial_pose = view.world_from_camera
         focus = find_focus(scene.simulation)
-        self._radius = 0.5 * float(np.linalg.norm(np.ptp(focus.corners, axis=0)))  # of the focus
+        self._radius = focus.radius
         self._vehicle_path = smooth_vehicle_path(scene, focus.centre, focus.bow_direction)
         self._centre = focus.centre
         self._start_position = self._vehicle_path.positions[frame_at(scene.track, start)[0]]
@@ -82,10 +76,7 @@ class CameraPath:
         path = self._vehicle_path
         position, bow_direction = path.positions[frame], path.bow_directions[frame]
         if self._kind == "chase":
-            scale, up = min(self._radius, 2.0), np.array([0.0, 0.0, 1.0])
-            eye = position - CHASE_DISTANCE * scale * bow_direction + CHASE_HEIGHT * scale * up
-            view = position + 0.5 * scale * bow_direction - eye
-            return Pose(eye, camera_axes(view / np.linalg.norm(view), up))
+            return chase_pose(position, bow_direction, self._radius)
         angle = ORBIT_ANGLE * math.sin(2.0 * math.pi * (time - self._start) / ORBIT_PERIOD)
         rotation = rotation_z(angle)
         centre = self._centre + position - self._start_position
