@@ -233,7 +233,7 @@ def evaluate(envs, actor, standardise, current):
         command = np.clip(actor.forward(standardise(observation))[0], -1.0, 1.0)
         observation, _, _, truncated, infos = envs.step(command)
         if truncated.all():
-            return float(infos["rms_error"].mean())
+            return float(infos["measures"]["offset"].mean())
 
 
 def main():

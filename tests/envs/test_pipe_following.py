@@ -68,7 +68,7 @@ def test_the_course_differs_from_seed_to_seed_and_rows_are_refused() -> None:
     second, _ = env.reset(seed=2, options={"level": LEVEL})
     assert np.abs(first[6:15] - second[6:15]).max() > 0.01
     env.close()
-    with pytest.raises(BadSetting, match="no <reference> to a desired position"):
+    with pytest.raises(BadSetting, match="it observes pathError, pathDirection"):
         gymnasium.make_vec("uwsim.envs:uwsim/PipeFollowing-v0", num_envs=2, stepper="rows")
 
 

@@ -103,7 +103,7 @@ def test_the_observed_handle_is_where_kinematics_and_odometry_put_it(reach: Benc
     for _ in range(10):
         observation, *_ = reach.step(action)
     parts = slices_of(reach)
-    world = reach._episode.simulation.world.measure_view  # type: ignore[union-attr]
+    world = reach._stepper._episode.simulation.world.measure_view  # type: ignore[union-attr]
     # the joints' state has a rate of 50 Hz: it is published at the end of each period of 0.1 s
     joints = observation[parts["/girona500/joint_state:position"]]
     tool = world.body("girona500").world_from_body @ base_from_tool(joints[:4])

@@ -57,7 +57,7 @@ def test_the_chase_camera_stays_behind_the_vehicle() -> None:
     for _ in range(10):
         env.step(forward())
         env.render()
-    simulation = env.unwrapped._episode.simulation  # type: ignore[union-attr]
+    simulation = env.unwrapped._stepper._episode.simulation  # type: ignore[union-attr]
     pose = frames._follow(simulation)
     vehicle = simulation.world.bodies.find("bluerov2").world_from_body
     offset = vehicle.rotation.T @ (pose.position - vehicle.position)
@@ -70,7 +70,7 @@ def test_a_camera_is_rendered_as_by_the_simulation() -> None:
     env = make_env("station-keeping", render_mode="rgb_array")
     env.reset(seed=1)
     frame = env.render()
-    episode = env.unwrapped._episode
+    episode = env.unwrapped._stepper._episode
     assert frame is not None
     assert episode is not None
     assert frame.tobytes() == np.asarray(episode.simulation.image("camera").colour).tobytes()

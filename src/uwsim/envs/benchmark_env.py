@@ -16,11 +16,11 @@ from gymnasium.spaces import Box
 from ..editing import Benchmark, Scene
 from ..errors import BadSetting
 from ..messages.observation import Observation
-from ..runs.planning.trial_cache import TrialCache
-from .episode import Episode, environment_of, max_steps_of
+from .episode import environment_of, max_steps_of
 from .frames import Frame, FrameSource
-from .levels import draw_level, is_path, read_choices, vary_plan
+from .levels import read_choices
 from .spaces import observation_space
+from .steppers import StepperName, make_stepper
 from .task import EnvironmentOptions, make_task
 
 if TYPE_CHECKING:
@@ -53,6 +53,9 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
         frame_size: the width and height of the images [px]; None: those of the camera.
         real_time_factor: the simulation time per wall time in the mode ``human`` [1]; 0: as fast as
             possible.
+        stepper: ``engine``: an episode is a trial of the benchmark, to the bit. ``rows``: compiled
+            code, which agrees with the engine to 1e-10. ``auto``: rows if they can step the
+            environment, else the engine.
 
     Raises:
         UwsimError: a file, a name or an option is invalid.
@@ -78,6 +81,7 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
         camera: str | None = None,
         frame_size: tuple[int, int] | None = None,
         real_time_factor: float = 1.0,
+        stepper: StepperName = "engine",
     ) -> None:
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise BadSetting(
@@ -107,17 +111,16 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
             **type(self).metadata,
             "render_fps": max(1, round(1.0 / environment_of(self._plan).period)),
         }
-        self._cache = TrialCache()
         self._page_stack = ExitStack()
         self._page: LiveSession | None = None
-        self._seed = 0
-        self._episode: Episode | None = self._begin(0, {})
-        self._is_over = True
-        [self.layout] = self._episode.layouts
+        self._stepper = make_stepper(self._plan, stepper, renders=render_mode is not None)
+        self._begin_info: dict[str, Any] = {}
+        self._is_over, self._is_closed = True, False
+        self.layout = self._stepper.layout
         """The name and the size of each part of the observation, in order."""
         size = sum(n for _, n in self.layout)
-        self.observation_space = observation_space(size, self._episode.images[0])
-        self.action_space = Box(-1.0, 1.0, (self._episode.n_actions[0],), np.float32)
+        self.observation_space = observation_space(size, self._stepper.images)
+        self.action_space = Box(-1.0, 1.0, (self._stepper.n_actions,), np.float32)
         self._frames = FrameSource(self._plan.scene, camera, frame_size)
         self._real_time_factor = real_time_factor
 
@@ -129,7 +132,7 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
     @property
     def stepper(self) -> str:
         """The stepper of the environment, and the reason for it."""
-        return "engine: the trial of uwsim bench, for any scene and any topic"
+        return self._stepper.statement
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -146,21 +149,19 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
         Returns:
             The observation, and ``info`` with ``seed``, ``level`` and ``variations``.
         """
-        choices = read_choices(self._plan.benchmark.scene_updater, options)
+        updater, has_paths = self._plan.benchmark.scene_updater, self._stepper.has_paths
+        choices = read_choices(updater, options, has_paths=has_paths)
         super().reset(seed=seed)
         episode_seed = int(self.np_random.integers(MAX_SEED)) if seed is None else seed
-        if self._episode is not None:
-            self._episode.close()
         self._open_page()
-        self._episode = self._begin(episode_seed, choices)
+        draws = self._stepper.begin(episode_seed, choices, self._page)
+        self._begin_info = {"seed": episode_seed, **draws}
         self._is_over = False
-        [observation] = self._episode.observe()
-        return observation, self._info()
+        return self._stepper.observe(), self._info()
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Apply an action for one period, or until the episode ends."""
-        episode = self._episode
-        if episode is None or self._is_over:
+        if self._is_over:
             raise gymnasium.error.ResetNeeded("The episode is over; call reset() first.")
         values = np.asarray(action, dtype=np.float64)
         if values.shape != self.action_space.shape or not np.isfinite(values).all():
@@ -168,30 +169,28 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
                 f"The action has the shape {values.shape}; expected {self.action_space.shape}, "
                 "finite numbers from -1 to 1."
             )
-        [reward] = episode.step([values])
-        [observation] = episode.observe()
-        self._is_over = episode.row is not None
-        is_truncated = episode.is_truncated
-        is_terminated = self._is_over and not is_truncated
-        return observation, reward, is_terminated, is_truncated, self._info()
+        reward, is_terminated, is_truncated = self._stepper.step(values)
+        info = self._info()
+        self._is_over = is_terminated or is_truncated
+        if self._is_over:
+            info |= self._stepper.results()
+        return self._stepper.observe(), reward, is_terminated, is_truncated, info
 
     def render(self) -> Frame | None:
         """Return the present image, (h, w, 3), in the mode ``rgb_array``; otherwise None.
 
         In the mode ``human``, the steps themselves are shown.
         """
-        if self.render_mode != "rgb_array" or self._episode is None:
+        if self.render_mode != "rgb_array" or self._is_closed:
             return None
-        return self._frames.draw(self._episode.simulation)
+        return self._stepper.draw(self._frames)
 
     def close(self) -> None:
         """Close the scene, its renderer and the page."""
-        if self._episode is not None:
-            self._episode.close()
-            self._episode = None
+        self._is_over = self._is_closed = True
+        self._stepper.close()
         self._page_stack.close()
         self._page = None
-        self._cache.close()
 
     def _open_page(self) -> None:
         """Open the page of the mode ``human``, unless it is open, and print its address."""
@@ -205,22 +204,10 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
             )
         )
 
-    def _begin(self, seed: int, choices: Mapping[str, float | tuple[float, float]]) -> Episode:
-        self._seed = seed
-        self._level = draw_level(self._plan.benchmark.scene_updater, seed, choices)
-        self._variations = {path: value for path, value in choices.items() if is_path(path)}
-        plan = vary_plan(self._plan, choices)
-        self._variations |= {draw.path: draw.value for draw in plan.draws(seed)}
-        return Episode(plan, seed, self._level, self._cache, self._page)
-
     def _info(self) -> dict[str, Any]:
-        """Return the seed and the level and, at the end, the result of the benchmark."""
-        return {
-            "seed": self._seed,
-            "level": dict(self._level.values),
-            "variations": dict(self._variations),
-            **({} if self._episode is None else self._episode.result()),
-        }
+        """Return the seed, the level and the variations of the episode."""
+        info = self._begin_info
+        return info | {"level": dict(info["level"]), "variations": dict(info["variations"])}
 
 
 def _print(line: str) -> None:

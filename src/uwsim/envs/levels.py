@@ -37,6 +37,11 @@ OPTIONS = ("level",)
 """The keys of the options of ``reset``."""
 
 
+def level_stream(name: str) -> str:
+    """Return the name of the random stream of a swept parameter."""
+    return f"environment/level/{name}"
+
+
 def draw_level(updater: SceneUpdaterSpec, seed: int, choices: Mapping[str, Value]) -> Level:
     """Draw the level of an episode.
 
@@ -47,7 +52,7 @@ def draw_level(updater: SceneUpdaterSpec, seed: int, choices: Mapping[str, Value
     """
     values = []
     for name, spec in zip(swept_parameters(updater), chain(updater), strict=True):
-        rng = stream(seed, f"environment/level/{name}")
+        rng = stream(seed, level_stream(name))
         choice = choices.get(name)
         if choice is None:
             levels = spec.values()

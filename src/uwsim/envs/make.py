@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TypedDict, Unpack
+from typing import TYPE_CHECKING, Literal, TypedDict, Unpack
 
 from ..errors import MissingExtra
 
@@ -46,12 +46,19 @@ class ParallelOptions(TypedDict, total=False):
     camera: str | None
 
 
-def make_env(benchmark: str | Path | Benchmark, **options: Unpack[EnvOptions]) -> BenchmarkEnv:
+def make_env(
+    benchmark: str | Path | Benchmark,
+    *,
+    stepper: Literal["engine", "rows", "auto"] = "engine",
+    **options: Unpack[EnvOptions],
+) -> BenchmarkEnv:
     """Make the Gymnasium environment of a benchmark file.
 
     Args:
         benchmark: a benchmark file, a bundled name or a `Benchmark`; with ``observation`` and
             ``action`` it needs no ``<u:environment>``.
+        stepper: ``engine`` for episodes that are trials of the benchmark to the bit, ``rows`` for
+            compiled rows, or ``auto`` for rows if they can step the environment.
         options: the options of `uwsim.envs.BenchmarkEnv`.
 
     Raises:
@@ -62,7 +69,7 @@ def make_env(benchmark: str | Path | Benchmark, **options: Unpack[EnvOptions]) -
         raise MissingExtra("Environments need Gymnasium: pip install 'uwsim[envs]'.")
     from .benchmark_env import BenchmarkEnv
 
-    return BenchmarkEnv(benchmark, **options)
+    return BenchmarkEnv(benchmark, stepper=stepper, **options)
 
 
 def make_parallel_env(

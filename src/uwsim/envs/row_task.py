@@ -1,45 +1,62 @@
 """The task of rows of free vehicles, from a benchmark whose environment they can step.
 
-Rows (`uwsim.envs.batch`) step one free vehicle each. They observe the state, act by thrusters, and
-are rewarded by the distance from the reference.
+Rows (`uwsim.envs.compiled`) step one free vehicle each. They observe the state, act by thrusters,
+and compute the measures of position and energy.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..base.expression import parse
-from ..base.geometry import Array, Pose, quaternion_from_rotation
+from ..base.geometry import Pose
 from ..benchmark.environment import EnvironmentSpec
 from ..benchmark.environment.reward import REWARD_NAMES
-from ..benchmark.reference_trajectory import TrajectorySpec
+from ..benchmark.measures import (
+    CollisionSpec,
+    EnergySpec,
+    GraspSpec,
+    MeasureSpec,
+    PositionErrorSpec,
+    TrackingErrorSpec,
+)
 from ..benchmark.triggers.never import NeverSpec
+from ..benchmark.triggers.on_init import OnInitSpec
 from ..benchmark.updaters import (
     CurrentForceUpdaterSpec,
     NoneSpec,
     RepeatSpec,
     SeaStateUpdaterSpec,
     chain,
+    interval,
 )
 from ..devices.battery import BatterySpec
 from ..errors import BadSetting
 from ..model.body_names import vehicle_body
 from ..model.scene_model import SceneModel
+from ..physics.hydrodynamics.columns import N_ADVANCE
 from ..physics.hydrodynamics.free_vehicle import free_vehicle
 from ..physics.hydrodynamics.kernel.free_step import FreeVehicle
 from ..runs.planning.plan import Plan
 from ..runs.planning.trial_cache import compile_plan
-from ..scene.variation import apply_variations
+from ..scene.hydrodynamics.spec import ThrusterSpec
 from ..topics.thruster_commands import ROSThrustersToPATSpec
 from .batch.flows import n_bodies
-from .episode import environment_of, max_steps_of
+from .episode import environment_of
 from .row_water import WATER_PATHS, RowWater
 
 UPDATERS = (CurrentForceUpdaterSpec, SeaStateUpdaterSpec, NoneSpec, RepeatSpec)
 """The updaters whose levels rows can have."""
+ROW_CHANNELS = (
+    "positionError", "referenceVelocity", "position", "heading", "gravity", "linearVelocity",
+    "angularVelocity", "lastAction",
+)  # fmt: skip
+"""The observed quantities that rows compute, in the order of their codes."""
+START_PARTS = (*(f"position.{axis}" for axis in "xyz"), *(f"orientation.{axis}" for axis in "rpy"))
+"""The paths of the numbers of a vehicle's start, below the vehicle."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -50,8 +67,10 @@ class RowPlan:
     """The plan of the benchmark."""
     spec: EnvironmentSpec
     """The environment."""
-    trajectory: TrajectorySpec
-    """The desired position at each time."""
+    measures: tuple[MeasureSpec, ...]
+    """The measures that rows compute."""
+    thrusters: tuple[ThrusterSpec, ...]
+    """The thrusters of the vehicle."""
     vehicle: FreeVehicle
     """The numbers of the vehicle."""
     water: RowWater
@@ -62,78 +81,78 @@ class RowPlan:
     """The pose of L in W."""
     substeps: int
     """The number of physics steps in a period."""
-    max_steps: int
-    """The number of periods in an episode."""
+    n_steps: int
+    """The number of physics steps in an episode."""
 
-    def start(self, seed: int) -> tuple[Array, Array]:
-        """Return the position in W [m] and the attitude (wxyz) at the start of an episode."""
-        scene = apply_variations(self.plan.scene, seed)
-        vehicle = scene.vehicles[self.index]
-        pose = self.world_from_localized @ Pose.from_rpy(vehicle.position, vehicle.orientation)
-        return pose.position, quaternion_from_rotation(pose.rotation)
+
+class RowsRefused(BadSetting):
+    """An environment that rows cannot step, with the reasons."""
+
+    def __init__(self, path: str, reasons: str) -> None:
+        self.reasons = f"rows cannot step this environment: {reasons}"
+        """The reasons, without the name of the file."""
+        super().__init__(f"{path}: {self.reasons}. Use stepper='engine'.")
 
 
 def plan_rows(plan: Plan, model: SceneModel) -> RowPlan:
     """Return the numbers of a benchmark that rows step.
 
     Raises:
-        BadSetting: rows cannot step it; the message has the reasons.
+        RowsRefused: rows cannot step it; the message has the reasons.
     """
     spec = environment_of(plan)
-    trajectory = spec.trajectory(plan.benchmark.measures)
-    reasons = _find_reasons(plan, spec, model)
-    if trajectory is None:
-        reasons.append("it has no <reference> to a desired position")
-    _refuse(plan, reasons)
-    assert trajectory is not None
+    _refuse(plan, [*_scene_reasons(plan, spec, model), *_level_reasons(plan, spec)])
     index = [vehicle.name for vehicle in model.scene.vehicles].index(spec.vehicle)
     root = model.engine_model.body(vehicle_body(index, model.robots[index].root)).id
     vehicle = free_vehicle(model.engine_model, root)
-    substeps = max(1, round(spec.period / plan.timestep))
-    max_steps = max_steps_of(plan)
-    n_steps = substeps * max_steps
+    measures = tuple(
+        measure
+        for measure in plan.benchmark.measures
+        if _is_computed(measure, spec.vehicle, vehicle)
+    )
+    _refuse(plan, _measure_reasons(plan, spec, [measure.name for measure in measures]))
+    n_steps = round((interval(plan.benchmark.scene_updater) or 0.0) / plan.timestep)
     water = RowWater(plan, model, spec.vehicle, n_bodies=n_bodies(vehicle), n_steps=n_steps)
     _refuse(plan, [*water.reasons(), *_find_variations(plan, spec.vehicle, vehicle, root)])
     return RowPlan(
         plan=plan,
         spec=spec,
-        trajectory=trajectory,
+        measures=measures,
+        thrusters=tuple(model.dynamics[index].thrusters),
         vehicle=vehicle,
         water=water,
         index=index,
         world_from_localized=model.scene.world_from_localized,
-        substeps=substeps,
-        max_steps=max_steps,
+        substeps=round(spec.period / plan.timestep),
+        n_steps=n_steps,
     )
 
 
-def _refuse(plan: Plan, reasons: Sequence[str]) -> None:
-    """Raise BadSetting if there is a reason why rows cannot step an environment."""
-    if reasons:
-        raise BadSetting(
-            f"{plan.benchmark.path}: rows cannot step this environment: {'; '.join(reasons)}. "
-            "Use stepper='engine'."
-        )
+def start_paths(vehicle: str) -> list[str]:
+    """Return the paths of the numbers of a vehicle's start: x, y, z, roll, pitch, yaw."""
+    return [f"vehicle[{vehicle}].{part}" for part in START_PARTS]
 
 
-def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[str]:
-    """Return the reasons why rows cannot step an environment."""
-    reasons = []
-    names = [vehicle.name for vehicle in model.scene.vehicles]
+def _refuse(plan: Plan, reasons: Iterable[str]) -> None:
+    """Raise RowsRefused if there is a reason why rows cannot step an environment."""
+    if text := "; ".join(reasons):
+        raise RowsRefused(plan.benchmark.path, text)
+
+
+def _scene_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> Iterator[str]:
+    """Yield the reasons in the scene why rows cannot step an environment."""
+    vehicles = model.scene.vehicles
+    names = [vehicle.name for vehicle in vehicles]
     if len(names) != 1 or names.index(spec.vehicle) not in model.dynamics:
-        reasons.append("its scene has other than one vehicle with dynamics")
+        yield "its scene has other than one vehicle with dynamics"
     if any(robot.movable_joints for robot in model.robots.values()):
-        reasons.append("its vehicle has moving joints")
-    if any(isinstance(part, BatterySpec) for item in model.scene.vehicles for part in item.parts):
-        reasons.append("its vehicle has a battery, which may limit its thrusters")
+        yield "its vehicle has moving joints"
+    if any(isinstance(part, BatterySpec) for item in vehicles for part in item.parts):
+        yield "its vehicle has a battery, which may limit its thrusters"
     if spec.reference_vehicle(plan.benchmark.measures) is not None:
-        reasons.append("its reference is relative to a vehicle")
-    if spec.topic_field:
-        reasons.append("it observes topics")
-    if spec.relations:
-        reasons.append("it observes relations of bodies")
-    if spec.image:
-        reasons.append("it observes images")
+        yield "its reference is relative to a vehicle"
+    if any(vehicle.on_floor is not None for vehicle in plan.scene.vehicles):
+        yield "its vehicle begins on the floor"
     topics = [
         interface.topic
         for interface in model.scene.ros_interfaces
@@ -142,27 +161,51 @@ def _find_reasons(plan: Plan, spec: EnvironmentSpec, model: SceneModel) -> list[
     if [action.topic for action in spec.action] != topics[:1] or any(
         action.limits for action in spec.action
     ):
-        reasons.append("its action is not the commands of all thrusters")
-    samples = spec.sample_names(plan.benchmark.measures)
-    known_names = {spec.reference or "", *REWARD_NAMES}
-    reward = parse(spec.reward, [*samples, *REWARD_NAMES])
-    other_measures = [name for name in reward.names if name not in known_names]
-    if other_measures:
-        reasons.append(f"its reward has the measure {', '.join(other_measures)}")
-    if other_updaters := [
-        updater.name
-        for updater in chain(plan.benchmark.scene_updater)
-        if not isinstance(updater, UPDATERS)
-    ]:
-        reasons.append(f"its updater changes {', '.join(other_updaters)}")
+        yield "its action is not the commands of all thrusters"
     if model.scene.forces:
-        reasons.append("its scene has forces")
+        yield "its scene has forces"
     solids = [item.name for item in model.scene.objects if item.has_contacts(in_water=True)]
     if solids:
-        reasons.append(f"its scene has solid objects ({', '.join(solids[:3])})")
+        yield f"its scene has solid objects ({', '.join(solids[:3])})"
+
+
+def _level_reasons(plan: Plan, spec: EnvironmentSpec) -> Iterator[str]:
+    """Yield the reasons in the levels and the observation why rows cannot step an environment."""
+    if spec.topic_field:
+        yield "it observes topics"
+    if other_channels := [name for name in spec.channels if name not in ROW_CHANNELS]:
+        yield f"it observes {', '.join(other_channels)}"
+    if spec.relations:
+        yield "it observes relations of bodies"
+    if spec.image:
+        yield "it observes images"
+    updaters = chain(plan.benchmark.scene_updater)
+    if other_updaters := [item.name for item in updaters if not isinstance(item, UPDATERS)]:
+        yield f"its updater changes {', '.join(other_updaters)}"
+    if interval(plan.benchmark.scene_updater) is None:
+        yield "its levels have no <interval>"
+    n_substeps = spec.period / plan.timestep
+    if round(n_substeps) < 1 or abs(n_substeps - round(n_substeps)) > 1e-9:
+        yield f"its period of {spec.period:g} s is no multiple of the step of {plan.timestep:g} s"
     if not isinstance(plan.benchmark.stop_on, NeverSpec):
-        reasons.append("a trigger ends its levels")
-    return reasons
+        yield "a trigger ends its levels"
+    for measure in plan.benchmark.measures:
+        if isinstance(measure, CollisionSpec | GraspSpec):
+            yield f"its measure {measure.name} may end a level"
+    if plan.compatibility:
+        yield f"it has the compatibility {', '.join(sorted(plan.compatibility))}"
+
+
+def _measure_reasons(plan: Plan, spec: EnvironmentSpec, measures: Sequence[str]) -> Iterator[str]:
+    """Yield the measures that reward and success need and rows do not compute."""
+    names = spec.sample_names(plan.benchmark.measures)
+    known_names = (*measures, *REWARD_NAMES)
+    for kind, text in (("reward", spec.reward), ("success", spec.success or "0")):
+        names_used = parse(text, [*names, *REWARD_NAMES]).names
+        if other_names := [name for name in names_used if name not in known_names]:
+            yield f"its {kind} has the measure {', '.join(other_names)}"
+    if spec.reference is not None and spec.reference not in measures:
+        yield f"its reference {spec.reference} is no measure that rows compute"
 
 
 def _find_variations(plan: Plan, name: str, vehicle: FreeVehicle, root: int) -> list[str]:
@@ -177,3 +220,17 @@ def _find_variations(plan: Plan, name: str, vehicle: FreeVehicle, root: int) -> 
         for a, b in zip(vehicle, other_vehicle, strict=True)
     )
     return [] if is_same else [f"<u:vary> changes its vehicle ({', '.join(paths)})"]
+
+
+def _is_computed(measure: MeasureSpec, vehicle: str, numbers: FreeVehicle) -> bool:
+    """Return whether rows compute a measure: a distance of the vehicle, or its energy."""
+    if not isinstance(measure.start_on, OnInitSpec) or not isinstance(measure.stop_on, NeverSpec):
+        return False
+    if isinstance(measure, EnergySpec):
+        has_inflow = bool(np.any(numbers.actuators[:, N_ADVANCE] > 0.0))
+        return measure.target == vehicle and not has_inflow
+    if isinstance(measure, PositionErrorSpec):
+        return measure.target == vehicle and measure.topic is None
+    if not isinstance(measure, TrackingErrorSpec):
+        return False
+    return measure.target == vehicle and measure.relative_to is None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Literal, Unpack
+from typing import Unpack
 
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
@@ -13,11 +13,10 @@ from ..editing import Benchmark, Scene
 from ..errors import BadSetting
 from .benchmark_env import BenchmarkEnv
 from .make import EnvOptions
+from .row_task import RowsRefused
 from .row_vector_env import RowVectorEnv
+from .steppers import NO_IMAGES, StepperName, check_stepper
 from .task import EnvironmentOptions, make_task
-
-STEPPERS = ("engine", "rows")
-"""The steppers of a vector."""
 
 
 class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
@@ -85,7 +84,7 @@ def make_vector_env(
     benchmark: str | Path | Benchmark,
     num_envs: int = 1,
     *,
-    stepper: Literal["engine", "rows"] = "engine",
+    stepper: StepperName = "engine",
     threads: int = 1,
     autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
     **options: Unpack[EnvOptions],
@@ -95,8 +94,9 @@ def make_vector_env(
     Args:
         benchmark: a benchmark file, a bundled name, or a `Benchmark`.
         num_envs: the number of rows.
-        stepper: ``engine`` for episodes that are trials of the benchmark, or ``rows`` for compiled
-            rows of free vehicles, several hundred times as fast.
+        stepper: ``engine`` for episodes that are trials of the benchmark to the bit, ``rows`` for
+            compiled rows of free vehicles, several hundred times as fast, or ``auto`` for rows if
+            they can step the environment.
         threads: the number of threads of ``rows``; it has no effect on the results.
         autoreset_mode: ``NextStep`` (the default), ``SameStep`` or ``Disabled``.
         options: the options of `BenchmarkEnv`.
@@ -105,10 +105,11 @@ def make_vector_env(
         BadSetting: rows cannot step the environment; the message has the reasons.
         UwsimError: a file, a name or an option is invalid.
     """
-    if stepper not in STEPPERS:
-        raise BadSetting(f"stepper is {stepper!r}; expected one of {', '.join(STEPPERS)}.")
-    if stepper == "engine":
+    renders = options.get("render_mode") is not None
+    if check_stepper(stepper) == "engine" or (stepper == "auto" and renders):
         return BenchmarkVectorEnv(benchmark, num_envs, autoreset_mode=autoreset_mode, **options)
+    if renders:
+        raise BadSetting(NO_IMAGES)
     settings, data_path = options.get("settings"), options.get("data_path", ())
     parts = EnvironmentOptions(
         observation=options.get("observation"),
@@ -126,4 +127,9 @@ def make_vector_env(
         data_path=data_path,
         scene=options.get("scene"),
     )
-    return RowVectorEnv(plan, num_envs, threads=threads, autoreset_mode=autoreset_mode)
+    try:
+        return RowVectorEnv(plan, num_envs, threads=threads, autoreset_mode=autoreset_mode)
+    except RowsRefused:
+        if stepper == "rows":
+            raise
+    return BenchmarkVectorEnv(benchmark, num_envs, autoreset_mode=autoreset_mode, **options)

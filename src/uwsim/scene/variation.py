@@ -197,8 +197,13 @@ def _values(
         except BadSetting as error:  # the spec was changed after it was read
             hint = "The scene without variations is its `nominal_scene`."
             raise BadSetting(f"<u:vary> {variation.path}: {error} {hint}") from None
-        share = float(stream(seed, f"vary/{location.path}").uniform())
-        yield variation, location, _draw_value(variation, location, share)
+        share = float(stream(seed, vary_stream(location)).uniform())
+        yield variation, location, value_at(variation, location.is_integer, share)
+
+
+def vary_stream(location: ValueLocation) -> str:
+    """Return the name of the random stream of a variation."""
+    return f"vary/{location.path}"
 
 
 def check_variations(
@@ -255,8 +260,15 @@ def _specs_at_bounds(location: ValueLocation, variation: VariationSpec) -> list[
     return specs
 
 
-def _draw_value(variation: VariationSpec, location: ValueLocation, share: float) -> float:
-    if not location.is_integer:
+def value_at(variation: VariationSpec, is_integer: bool, share: float) -> float:
+    """Return the value of a variation for a uniform number from 0 to 1 (excluded).
+
+    Args:
+        variation: the distribution.
+        is_integer: true if the varied number is an integer.
+        share: the uniform number.
+    """
+    if not is_integer:
         return float(f"{variation.quantile(share):.12g}")  # the same on every processor
     low, high = variation.bounds
     if isinstance(variation, UniformSpec):  # all are equally likely

@@ -38,10 +38,7 @@ DOWN = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True, eq=False)
 class VehicleState:
-    """The state of a vehicle at one time, from which the quantities follow.
-
-    The arrays may have a first axis of rows, one for each of several vehicles.
-    """
+    """The state of a vehicle at one time, from which the quantities follow."""
 
     position: Array
     """The position of the base in L, (3,) [m]."""
@@ -104,7 +101,7 @@ class VehicleState:
 
 
 def to_base(rotation: Array, vector: Array) -> Array:
-    """Return ``rotation.T @ vector``, for (3, 3) and (3,), or for rows of them."""
+    """Return ``rotation.T @ vector``, for (3, 3) and (3,)."""
     x, y, z = vector[..., 0, None], vector[..., 1, None], vector[..., 2, None]
     result: Array = rotation[..., 0, :] * x + rotation[..., 1, :] * y + rotation[..., 2, :] * z
     return result

@@ -104,7 +104,7 @@ class Observer:
         return {name: relation.number() for name, relation in self._relations.items()}
 
     def read_channels(self, state: VehicleState) -> list[Array]:
-        """Return the numbers of the observed quantities of a state, or of rows of states."""
+        """Return the numbers of the observed quantities of a state."""
         return [read(state) for _, read in self._channels]
 
     def close(self) -> None:

@@ -22,13 +22,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from ...base.expression import parse
 from ...base.geometry import Array
 from ...base.numerics import elementwise
 from ..measures import Measure
-from .array_expression import evaluate_rows
 from .channels import VehicleState
 
 REWARD_NAMES = ("effort", "change", "speed", "turnRate", "tilt", "time")
@@ -36,7 +34,7 @@ REWARD_NAMES = ("effort", "change", "speed", "turnRate", "tilt", "time")
 
 
 class RewardFunction:
-    """The reward of an environment, of one vehicle or of rows of them.
+    """The reward of an environment.
 
     Args:
         text: the expression.
@@ -49,10 +47,6 @@ class RewardFunction:
         self.names = frozenset(self._expression.names)
         """The names in the expression."""
         self._up = state.gravity
-
-    def restart(self, rows: npt.NDArray[np.bool_], state: VehicleState) -> None:
-        """Begin new episodes of some rows, (n,), in the present state of all rows."""
-        self._up = np.where(rows[:, None], state.gravity, self._up)
 
     def compute(
         self,
@@ -83,19 +77,6 @@ class RewardFunction:
         value = self._expression.evaluate(values)
         return 0.0 if value is None else value
 
-    def compute_rows(
-        self, samples: Mapping[str, Array], state: VehicleState, actions: Array
-    ) -> Array:
-        """Compute the rewards of a step of rows, (n,).
-
-        Args:
-            samples: the newest samples of the measures by name, (n,) each.
-            state: the states of the rows after the step, with the actions before these.
-            actions: the actions of the step, (n, a).
-        """
-        numbers = {**samples, **self._state_numbers(state, actions)}
-        return evaluate_rows(self._expression, numbers, len(actions))
-
     def _state_numbers(self, state: VehicleState, action: Array) -> dict[str, Array]:
         """Return the numbers of `REWARD_NAMES` that the expression uses."""
         change = action - state.last_action
@@ -113,7 +94,7 @@ class RewardFunction:
 
 
 def magnitude(vector: Array) -> Array:
-    """Return the length of a vector (3,), or of rows of them."""
+    """Return the length of a vector, (3,)."""
     result: Array = np.sqrt(np.sum(vector * vector, axis=-1))
     return result
 

@@ -240,7 +240,7 @@ def _score_row(
     """Compute the reward of a step, the sums of the episode, and whether it ends."""
     state, tally = rows.states[row], rows.tallies[row]
     error = distance(state, goal)
-    has_left = not error <= task.exit_distance or _has_diverged(state)
+    has_left = not error <= task.exit_distance or has_diverged(state)
     tally[c.N_INSIDE] = tally[c.N_INSIDE] + 1.0 if error <= task.tolerance else 0.0
     has_succeeded = tally[c.N_INSIDE] == float(task.hold_steps) and not rows.successes[row]
     if has_succeeded:
@@ -260,7 +260,7 @@ def _score_row(
 
 
 @njit_borrowed
-def _has_diverged(state: Floats) -> bool:
+def has_diverged(state: Floats) -> bool:
     """Return whether a velocity is not finite, or too large to be that of a vehicle."""
     total = 0.0
     for i in range(7, ACTUATORS):

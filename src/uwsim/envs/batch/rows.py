@@ -176,7 +176,7 @@ class Rows:
         if self.flows is not None:
             self.flows.functions[row_mask] = 0
         numbers, rows = self.numbers, self.arrays
-        self._share(
+        self.share(
             lambda first, end: reset_rows(
                 first,
                 end,
@@ -227,7 +227,7 @@ class Rows:
                 self.flows,
             )  # fmt: skip
         else:
-            self._share(
+            self.share(
                 lambda first, end: step_rows(
                     first,
                     end,
@@ -247,7 +247,7 @@ class Rows:
         if self._pool is not None:
             self._pool.shutdown()
 
-    def _share(self, work: Callable[[int, int], Any]) -> None:
+    def share(self, work: Callable[[int, int], Any]) -> None:
         """Call a compiled function for the rows of each thread, the last ones in this thread."""
         if self._pool is None:
             work(0, self.n)
