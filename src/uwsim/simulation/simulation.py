@@ -305,7 +305,7 @@ class Simulation:
             BadSetting: the density is not a finite number of at least 0.
             UwsimError: the scene has physical water.
         """
-        self.world.scenery.change_fog(arguments.check_number("set_fog", density))
+        self.world.scenery.set_fog(arguments.check_number("set_fog", density))
 
     def set_light(self, rate: float) -> None:
         """Set the factor by which the light is scaled, 1 by default.

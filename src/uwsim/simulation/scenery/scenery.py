@@ -141,17 +141,16 @@ class Scenery:
 
         The original UWSim also sets the fog colour of its window to (0, 0.05, 0.3), and does not
         change the fog colour of its cameras.
-        """
-        self.state.water = replace(self.state.water, fog=density)
 
-    def change_fog(self, density: float) -> None:
-        """Set the fog density [1/m]; raise UwsimError in physical water, which has no fog."""
+        Raises:
+            UwsimError: the water is physical; it has no fog.
+        """
         if self.state.water.physical_water is not None:
             raise UwsimError(
                 "The fog density has no effect in physical water; expected a scene without "
                 "<u:water>."
             )
-        self.set_fog(density)
+        self.state.water = replace(self.state.water, fog=density)
 
     def set_light_rate(self, rate: float) -> None:
         """Set the factor by which the light of the scene is scaled [1]; 1 by default."""

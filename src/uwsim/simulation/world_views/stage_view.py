@@ -27,7 +27,7 @@ class StageView(SceneView):
         """The names of the vehicles, in the file's order."""
         self.water = AdjustedWater(scene)
         """The waves and the physical water, which scene updaters change."""
-        self.set_fog = scene.scenery.change_fog
+        self.set_fog = scene.scenery.set_fog
         self.set_light_rate = scene.scenery.set_light_rate
         self.set_current = scene.water.set
         self.create_timer = scene.schedule.create_timer

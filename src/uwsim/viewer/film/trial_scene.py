@@ -68,7 +68,7 @@ class TrialScene:
         self._bodies.show(rows)
         world = self.simulation.world
         fog, light = self.signal("fog", frame), self.signal("light_rate", frame)
-        if fog is not None:
+        if fog is not None and world.scenery.state.water.physical_water is None:
             world.scenery.set_fog(fog)
         if light is not None:
             world.scenery.set_light_rate(light)
