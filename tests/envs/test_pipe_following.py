@@ -62,6 +62,18 @@ def test_the_observed_error_is_the_distance_that_the_measure_has() -> None:
 
 
 @pytest.mark.slow
+def test_the_speed_along_the_pipe_is_that_of_the_observed_velocity_and_direction() -> None:
+    env = make_env(
+        "pipe-following", reward="pathSpeed", observation=["pathDirection", "linearVelocity"]
+    )
+    env.reset(seed=2)
+    for _ in range(40):
+        observation, reward, *_ = env.step(np.full(env.action_space.shape, 0.5, np.float32))
+    assert abs(reward) > 0.01
+    assert reward == pytest.approx(float(observation[:3] @ observation[3:6]), abs=1e-12)
+    env.close()
+
+
 def test_the_course_differs_from_seed_to_seed_and_rows_are_refused() -> None:
     env = make_env("pipe-following")
     first, _ = env.reset(seed=1, options={"level": LEVEL})

@@ -7,6 +7,7 @@ speed          the speed over ground [m/s]
 turnRate       the magnitude of the angular velocity [rad/s]
 tilt           the angle between the base's z axis and its direction at the start [rad]
 time           the simulation time [s]
+pathSpeed      the speed along the path, if the reference is one [m/s]
 =============  ================================================================================
 
 The newest sample of a measure is the first number of its log, and of a ``<pathFollowing>`` the
@@ -27,10 +28,12 @@ from ...base.expression import parse
 from ...base.geometry import Array
 from ...base.numerics import elementwise
 from ..measures import Measure
-from .channels import VehicleState
+from .channels import CHANNELS, VehicleState
 
 REWARD_NAMES = ("effort", "change", "speed", "turnRate", "tilt", "time")
 """The names of a reward besides those of the measures."""
+PATH_SPEED = "pathSpeed"
+"""The name of the speed along the path, for environments whose reference is a path."""
 
 
 class RewardFunction:
@@ -78,7 +81,7 @@ class RewardFunction:
         return 0.0 if value is None else value
 
     def _state_numbers(self, state: VehicleState, action: Array) -> dict[str, Array]:
-        """Return the numbers of `REWARD_NAMES` that the expression uses."""
+        """Return the numbers of the state that the expression uses."""
         change = action - state.last_action
         numbers: dict[str, Array] = {
             "effort": np.mean(action * action, axis=-1),
@@ -90,6 +93,9 @@ class RewardFunction:
         if "tilt" in self.names:
             cosine = np.sum(self._up * state.gravity, axis=-1)
             numbers["tilt"] = elementwise.arccos(np.clip(cosine, -1.0, 1.0))
+        if PATH_SPEED in self.names:
+            direction = CHANNELS["pathDirection"][1](state)
+            numbers[PATH_SPEED] = np.sum(state.twist[..., :3] * direction, axis=-1)
         return {name: number for name, number in numbers.items() if name in self.names}
 
 

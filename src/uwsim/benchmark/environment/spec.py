@@ -30,7 +30,7 @@ from ..metrics.held_commands import TWIST_UNITS, WRENCH_UNITS
 from ..reference_trajectory import TrajectorySpec
 from .channels import CHANNELS, PATH_CHANNELS, REFERENCE_CHANNELS
 from .relations import ContactSpec, RelativePoseSpec
-from .reward import REWARD_NAMES
+from .reward import PATH_SPEED, REWARD_NAMES
 
 AXES = (*TWIST_UNITS, *WRENCH_UNITS)
 """The axes of commands by twists and wrenches."""
@@ -144,11 +144,13 @@ class EnvironmentSpec(Spec):
     def sample_names(self, measures: Sequence[MeasureSpec]) -> list[str]:
         """Return the names in a reward besides `REWARD_NAMES`.
 
-        They are those of the measures, of their columns, and of the relations.
+        They are those of the measures, of their columns, and of the relations; with a path also
+        `PATH_SPEED`.
         """
         columns = [f"{spec.name}_{column}" for spec in measures for column in spec.columns]
         relations = [spec.name for spec in self.relations]
-        return [*(spec.name for spec in measures), *columns, *relations]
+        path_names = [] if self.path_measure(measures) is None else [PATH_SPEED]
+        return [*(spec.name for spec in measures), *columns, *relations, *path_names]
 
     def trajectory(self, measures: Sequence[MeasureSpec]) -> TrajectorySpec | None:
         """Return the desired position at each time; None without a reference."""
