@@ -351,6 +351,22 @@ def test_the_matrix_stands_before_the_tables_and_on_a_narrow_terminal_in_symbols
     )
 
 
+def test_a_printed_comparison_has_a_line_for_each_pair_with_its_numbers(three: Comparison) -> None:
+    lines = str(three).splitlines()
+    for line, pair in zip(lines, three.pairs, strict=True):
+        value = pair.sweep.value
+        numbers = (value.difference.mean, value.difference.low, value.difference.high)
+        assert f"{pair.second.name} minus {pair.first.name}: " in line
+        assert [float(text) for text in re.findall(r"-?\d+\.\d+", line)[:3]] == pytest.approx(
+            numbers, rel=5e-3
+        )
+        winner = {"first": pair.first.name, "second": pair.second.name}.get(value.verdict)
+        assert line.endswith(f": {winner} is better" if winner else f": {value.verdict}")
+    assert any(line.endswith("is better") for line in lines)
+    assert any(line.endswith("not shown") for line in lines)
+    assert len(repr(three)) < 100
+
+
 def test_one_repeat_shows_nothing_and_says_so() -> None:
     comparison = compared(
         make_result("esm", {0.0: [1.0], 0.5: [2.0], 1.0: [3.0]}),

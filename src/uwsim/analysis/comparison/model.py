@@ -185,6 +185,17 @@ class Comparison:
     pairs: tuple[PairComparison, ...]
     """The comparison of every pair of results."""
 
+    def __str__(self) -> str:
+        """Return a line for each pair: the mean difference over the sweep, and the verdict.
+
+        For example ``total [m]: p minus pi: 0.187 [0.164, 0.199], 6 repeats, p = 0.031: pi is
+        better``. `p` is the p-value after Holm's correction.
+        """
+        return "\n".join(f"{self.column.label}: {_describe(pair)}" for pair in self.pairs)
+
+    def __repr__(self) -> str:
+        return f"<Comparison {self.column.name}: {', '.join(entry.name for entry in self.entries)}>"
+
     @property
     def levels(self) -> tuple[Level, ...]:
         """The levels that at least two of the results share."""
@@ -252,3 +263,18 @@ def min_corrected_p(family: Sequence[PairedDifference]) -> tuple[float | None, .
     all tests have their smallest p (`min_p_value`), which depends on n alone.
     """
     return holm([min_p_value(d.difference.n) if d.is_tested else None for d in family])
+
+
+def _describe(pair: PairComparison) -> str:
+    """Return the difference of two results over the sweep, and the verdict."""
+    value = pair.sweep.value
+    difference = value.difference
+    text = f"{pair.second.name} minus {pair.first.name}: "
+    text += "no value" if difference.mean is None else f"{difference.mean:.3g}"
+    if difference.low is not None:
+        text += f" [{difference.low:.3g}, {difference.high:.3g}]"
+    text += f", {difference.n} repeats"
+    if value.p_holm is not None:
+        text += f", p = {value.p_holm:.2g}"
+    winner = {"first": pair.first, "second": pair.second}.get(value.verdict)
+    return f"{text}: {value.verdict if winner is None else f'{winner.name} is better'}"
