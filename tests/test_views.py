@@ -39,14 +39,19 @@ def classes() -> dict[str, list[tuple[Path, ast.ClassDef]]]:
 
 
 def own_names(node: ast.ClassDef) -> Iterator[str]:
-    """Names of methods, properties and attributes; of a dataclass not those of its fields."""
+    """Names of methods, properties and attributes.
+
+    Fields do not count: those of a dataclass, and those of a spec that a document has as
+    attributes (`tests/editing/test_attributes.py` compares them).
+    """
     is_dataclass = any("dataclass" in ast.unparse(each) for each in node.decorator_list)
+    is_document = any(ast.unparse(base).startswith("Document[") for base in node.bases)
     for member in node.body:
         if isinstance(member, Function):
             yield member.name
             if member.name == "__init__":
                 yield from assigned_names(member)
-        elif isinstance(member, ast.AnnAssign) and not is_dataclass:
+        elif isinstance(member, ast.AnnAssign) and not (is_dataclass or is_document):
             yield ast.unparse(member.target)
         elif isinstance(member, ast.Assign) and not is_dataclass:
             yield from map(ast.unparse, member.targets)

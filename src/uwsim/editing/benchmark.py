@@ -14,19 +14,23 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Literal
 
 from ..benchmark.environment import EnvironmentSpec
+from ..benchmark.measures import MeasureSpec
 from ..benchmark.plugin import Plugin
 from ..benchmark.plugin_tables import Tables
 from ..benchmark.reader import read_benchmark as read_benchmark_file
 from ..benchmark.spec import BenchmarkSpec, FunctionSpec
-from ..benchmark.triggers import NeverSpec, OnInitSpec
-from ..benchmark.updaters import NoneSpec
+from ..benchmark.triggers import NeverSpec, OnInitSpec, TriggerSpec
+from ..benchmark.updaters import NoneSpec, SceneUpdaterSpec
 from ..benchmark.writer import write_benchmark
 from ..checks.benchmark_tables import read_plugins
 from ..errors import BadSetting, BenchmarkError, Diagnostic
+from ..scene.variation import VariationSpec
+from .attributes import Part, Parts
 from .document import Document, check_equal
-from .element import Element, ElementList
+from .element import Element
 from .file_names import move_file_names
 from .scene import Scene
 from .text_diagnostics import locate_diagnostics
@@ -61,6 +65,23 @@ class Benchmark(Document[BenchmarkSpec]):
         plugins: the plugins whose measures, triggers and updaters are known, and their tables.
     """
 
+    measures: Parts[MeasureSpec]
+    start_on: Part[TriggerSpec]
+    stop_on: Part[TriggerSpec]
+    function: Part[FunctionSpec]
+    scene_updater: Part[SceneUpdaterSpec]
+    scene: str | None
+    algorithm: str | None
+    plugin: tuple[str, ...]
+    mode: Literal["sequential", "independent"] | None
+    prelude: bool
+    compatibility: tuple[str, ...]
+    patience: float | None
+    timestep: float | None
+    vary: Parts[VariationSpec]
+    environments: Parts[EnvironmentSpec]
+    path: str
+
     def __init__(
         self,
         spec: BenchmarkSpec | None = None,
@@ -78,10 +99,9 @@ class Benchmark(Document[BenchmarkSpec]):
         Raises:
             BadSetting: the benchmark has none.
         """
-        environments: ElementList[EnvironmentSpec] = self.environments
-        if not len(environments):
+        if not len(self.environments):
             raise BadSetting("The benchmark has no <u:environment>.")
-        return environments[0]
+        return self.environments[0]
 
     def rename(self, path: str, new_name: str) -> None:
         """Rename a measure, also in the score, the reward and the criterion of success."""

@@ -17,13 +17,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..benchmark.spec import BenchmarkSpec
+from ..devices.comms.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting, Diagnostic, SceneError
+from ..forces import ForceSpec
 from ..scene.object import ObjectSpec
+from ..scene.ocean_state import OceanStateSpec
 from ..scene.reader import read_scene as read_scene_file
-from ..scene.spec import SceneSpec
+from ..scene.sim_params import SimParamsSpec, ViewerCameraSpec
+from ..scene.spec import NedOriginSpec, NetTracingScriptSpec, SceneSpec
+from ..scene.variation import VariationSpec
 from ..scene.vehicle import VehicleSpec
 from ..scene.writer import write_scene
+from ..topics import InterfaceSpec
 from ..world import TIMESTEP
+from .attributes import OptionalPart, Part, Parts
 from .document import Document, check_equal
 from .element import Element
 from .file_names import move_file_names
@@ -52,6 +59,20 @@ class Scene(Document[SceneSpec]):
     Args:
         spec: the first contents; None: an empty scene.
     """
+
+    ocean_state: Part[OceanStateSpec]
+    sim_params: Part[SimParamsSpec]
+    camera: OptionalPart[ViewerCameraSpec]
+    ned_origin: OptionalPart[NedOriginSpec]
+    net_tracing_script: OptionalPart[NetTracingScriptSpec]
+    custom_comms_channels: Parts[CustomCommsChannelSpec]
+    acoustic_comms_channels: Parts[AcousticCommsChannelSpec]
+    vehicles: Parts[VehicleSpec]
+    objects: Parts[ObjectSpec]
+    ros_interfaces: Parts[InterfaceSpec]
+    vary: Parts[VariationSpec]
+    forces: Parts[ForceSpec]
+    path: str
 
     def __init__(self, spec: SceneSpec | None = None) -> None:
         super().__init__(SceneSpec() if spec is None else spec)
