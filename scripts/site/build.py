@@ -132,7 +132,9 @@ def notebook_pages(pages: Path) -> list[str]:
     names = []
     for source in sources:
         notebook = jupytext.read(source)
-        NotebookClient(notebook, timeout=300, resources={"metadata": {"path": pages}}).execute()
+        NotebookClient(
+            notebook, timeout=300, resources={"metadata": {"path": source.parent}}
+        ).execute()
         text, resources = MarkdownExporter().from_notebook_node(
             notebook, resources={"output_files_dir": f"notebooks/{source.stem}"}
         )
