@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium.wrappers.vector import RecordEpisodeStatistics
+from lxml import etree
 
 from uwsim.assets.find import find
 from uwsim.envs import RowVectorEnv, make_env
@@ -165,3 +167,84 @@ def test_rows_state_their_stepper() -> None:
     assert isinstance(rows.unwrapped, RowVectorEnv)
     assert rows.unwrapped.stepper.startswith("rows")
     rows.close()
+
+
+DATA = Path(str(resources.files("uwsim"))) / "data"
+BODY = "vehicle[bluerov2].hydrodynamics.body[base_link]"
+FACTORS = {"volume": 1.003, "addedMass": 1.3, "drag": 0.8, "timeConstant": 2.0}
+
+
+def test_factors_of_rows_scale_the_numbers_of_the_engine() -> None:
+    numbers = etree.parse(str(DATA / "vehicles" / "bluerov2_heavy.xml"))
+    settings: dict[str, float | str] = {}
+    for tag, name in (
+        ("volume", "volume"),
+        ("addedMass", "addedMass"),
+        ("linearDamping", "drag"),
+        ("quadraticDamping", "drag"),
+    ):
+        values = [float(text) for text in numbers.findtext(f".//{{*}}{tag}", "").split()]
+        paths = [f"{BODY}.{tag}"] if tag == "volume" else [f"{BODY}.{tag}.{i}" for i in range(1, 7)]
+        settings |= {p: FACTORS[name] * v for p, v in zip(paths, values, strict=True)}
+    for thruster in numbers.findall(".//{*}thruster"):
+        constant = float(thruster.findtext("{*}timeConstant", ""))
+        path = f"vehicle[bluerov2].hydrodynamics.thruster[{thruster.get('name')}]"
+        settings[f"{path}.timeConstant"] = FACTORS["timeConstant"] * constant
+    twin = make_env("station-keeping", settings=settings)
+    rows = make_env("station-keeping", stepper="rows")
+    level = {"current": 0.2}
+    twin.reset(seed=4, options={"level": level})
+    _, info = rows.reset(seed=4, options={"level": {**level, **FACTORS}})
+    assert info["level"] == {**level, **FACTORS}
+    for action in np.random.default_rng(1).uniform(-1.0, 1.0, (60, 8)):
+        expected_observation, expected_reward, *_ = twin.step(action)
+        observation, reward, *_ = rows.step(action)
+        np.testing.assert_allclose(observation, expected_observation, atol=1e-10)
+        assert reward == pytest.approx(expected_reward, abs=1e-10)
+    _, info = rows.reset(seed=4, options={"level": level})
+    assert {info["level"][name] for name in FACTORS} == {1.0}
+    twin.close()
+    rows.close()
+
+
+def test_factors_of_each_row_are_drawn_from_its_seed() -> None:
+    ranges = {"mass": (0.9, 1.1), "thrust": (0.7, 1.0)}
+    rows = make_rows("uwsim/StationKeeping-v0", 5)
+    observations, infos = rows.reset(seed=7, options={"level": ranges})
+    actions = np.full((5, 8), 0.6, np.float32)
+    for _ in range(3):
+        observations = rows.step(actions)[0]
+    for name, (low, high) in ranges.items():
+        values = infos["level"][name]
+        assert len(set(values.tolist())) == 5
+        assert ((low <= values) & (values <= high)).all()
+    single = make_env("station-keeping", stepper="rows")
+    _, info = single.reset(seed=9, options={"level": ranges})
+    assert info["level"]["mass"] == infos["level"]["mass"][2]
+    for _ in range(3):
+        observation = single.step(actions[2])[0]
+    np.testing.assert_array_equal(observation, observations[2])
+    rows.close()
+    single.close()
+
+
+@pytest.mark.parametrize(
+    ("level", "message"),
+    [
+        ({"mass": 0.0}, "expected a factor above 0, at most 100"),
+        ({"drag": (0.5, 200)}, "expected a factor above 0, at most 100"),
+        ({"dragg": 1.0}, "Did you mean 'drag'"),
+    ],
+)
+def test_a_wrong_factor_is_refused(level: dict[str, Any], message: str) -> None:
+    rows = make_env("station-keeping", stepper="rows")
+    with pytest.raises(BadSetting, match=message):
+        rows.reset(seed=1, options={"level": level})
+    rows.close()
+
+
+def test_the_engine_names_the_stepper_that_takes_factors() -> None:
+    env = make_env("station-keeping")
+    with pytest.raises(BadSetting, match="It is a factor of stepper='rows'"):
+        env.reset(seed=1, options={"level": {"drag": 1.1}})
+    env.close()

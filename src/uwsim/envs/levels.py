@@ -6,7 +6,9 @@ it, and ``{"current": (0.0, 0.3)}`` draws it uniformly from a range.
 
 A path to a number of the scene or of an updater, as ``--set`` names it, is a parameter, too:
 ``{"vehicle[bluerov2].hydrodynamics.body[base_link].mass": (12.5, 14.5)}``. A value is that of
-``--set``, and a range is a ``<u:uniform>`` of ``<u:vary>`` for the episode.
+``--set``, and a range is a ``<u:uniform>`` of ``<u:vary>`` for the episode. Rows share the scene;
+their parameters are the factors of the vehicle in `FACTORS` instead, such as
+``{"drag": (0.8, 1.2)}``.
 """
 
 from __future__ import annotations
@@ -33,6 +35,19 @@ from ..schema import Diagnostics
 
 Value = float | tuple[float, float]
 """A value, or the bounds of a range from which it is drawn."""
+FACTORS = {
+    "mass": "mass",
+    "volume": "volume",
+    "addedMass": "added_mass",
+    "drag": "drag",
+    "thrust": "thrust",
+    "timeConstant": "time_constant",
+}
+"""The factors of a vehicle that rows take, with their names in `uwsim.envs.batch`: of the mass with
+the moments of inertia, of the displaced volume, the added mass, drag and lift, the thrust of all
+thrusters, and the time constants of all actuators."""
+MAX_FACTOR = 100.0
+"""The greatest factor; a greater one is regarded as a typing error."""
 OPTIONS = ("level",)
 """The keys of the options of ``reset``."""
 
@@ -135,7 +150,7 @@ def read_choices(
     level = (options or {}).get("level", {})
     if not isinstance(level, Mapping):
         raise BadSetting(f"options['level'] is {short_repr(level)}; expected a dictionary.")
-    names = swept_parameters(updater)
+    names = (*swept_parameters(updater), *(() if has_paths else FACTORS))
     choices: dict[str, Value] = {}
     for name, value in level.items():
         if is_path(str(name)) and not has_paths:
@@ -144,12 +159,25 @@ def read_choices(
                 f"{', '.join(names)}, or stepper='engine'."
             )
         if name not in names and not is_path(str(name)):
+            hint = " It is a factor of stepper='rows'." if name in FACTORS else ""
             raise BadSetting(
                 f"The benchmark sweeps no parameter {short_repr(name)}."
-                f"{did_you_mean(str(name), names)} Known: {', '.join(names)}."
+                f"{hint or did_you_mean(str(name), names)} Known: {', '.join(names)}."
             )
         choices[name] = _read_value(name, value)
+        if name in FACTORS and name not in swept_parameters(updater):
+            _check_factor(name, choices[name])
     return choices
+
+
+def _check_factor(name: str, choice: Value) -> None:
+    """Raise BadSetting if a factor is not positive, or is too great."""
+    low, high = choice if isinstance(choice, tuple) else (choice, choice)
+    if not 0.0 < low <= high <= MAX_FACTOR:
+        raise BadSetting(
+            f"options['level'][{name!r}] is {choice}; expected a factor above 0, at most "
+            f"{MAX_FACTOR:g}."
+        )
 
 
 def _read_value(name: str, value: Any) -> Value:

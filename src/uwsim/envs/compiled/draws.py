@@ -27,7 +27,7 @@ from ...benchmark.updaters import Level, SceneUpdaterSpec, chain, swept_paramete
 from ...runs.planning.plan import Plan
 from ...scene.settings import ValueLocation, locate
 from ...scene.variation import VariationSpec, value_at, vary_stream
-from ..levels import Value, level_stream
+from ..levels import FACTORS, Value, level_stream
 from ..row_task import start_paths
 
 
@@ -39,6 +39,8 @@ class Draws:
     """The value of each swept parameter, (m,)."""
     variations: Mapping[str, Floats]
     """The value of each varied number by its path, (m,)."""
+    factors: Mapping[str, Floats]
+    """The value of each factor of the vehicle that was chosen, by its name in `FACTORS`, (m,)."""
     starts: Floats
     """The position of the vehicle in L [m], and its roll, pitch and yaw [rad], (m, 6)."""
 
@@ -64,6 +66,9 @@ class EpisodeDraws:
         names = [level_stream(name) for name, _ in self._parameters]
         names += [vary_stream(location) for _, location in self._variations]
         self._names: Words = name_words(names)
+        self.factors = [name for name in FACTORS if name not in swept_parameters(updater)]
+        """The names of the factors of the vehicle."""
+        self._factor_names: Words = name_words([level_stream(name) for name in self.factors])
         spec = plan.scene.vehicles[vehicle]
         self._start: Array = np.array([*spec.position, *spec.orientation])
         self._start_paths = start_paths(spec.name)
@@ -73,7 +78,8 @@ class EpisodeDraws:
 
         Args:
             seeds: the seeds of the episodes, (m,).
-            choices: the values or ranges of swept parameters by name, as for `draw_level`.
+            choices: the values or ranges of swept parameters and of factors by name, as for
+                `draw_level`.
 
         Raises:
             BadSetting: a seed is invalid.
@@ -91,7 +97,21 @@ class EpisodeDraws:
             variations[location.path] = values
             if location.path in self._start_paths:
                 starts[:, self._start_paths.index(location.path)] = values
-        return Draws(levels=levels, variations=variations, starts=starts)
+        factors = self._draw_factors(seeds, choices)
+        return Draws(levels=levels, variations=variations, factors=factors, starts=starts)
+
+    def _draw_factors(
+        self, seeds: Sequence[int], choices: Mapping[str, Value]
+    ) -> dict[str, Floats]:
+        """Draw the chosen factors of the vehicle."""
+        if not any(name in choices for name in self.factors):
+            return {}
+        words = first_words(seed_array(seeds), self._factor_names)
+        return {
+            name: _draw_number(choices[name], words[:, i])
+            for i, name in enumerate(self.factors)
+            if name in choices
+        }
 
 
 def _locations(plan: Plan) -> list[tuple[VariationSpec, ValueLocation]]:
@@ -109,6 +129,11 @@ def _draw_parameter(updater: SceneUpdaterSpec, choice: Value | None, words: Word
         values: Floats = np.array(updater.values())
         drawn_values: Floats = values[integers_of(words, len(values))]
         return drawn_values
+    return _draw_number(choice, words)
+
+
+def _draw_number(choice: Value, words: Words) -> Floats:
+    """Return a value, or uniform draws from a range, for the first words of streams, (m,)."""
     if isinstance(choice, tuple):
         low, high = choice
         numbers: Floats = low + (high - low) * uniforms_of(words)

@@ -26,7 +26,7 @@ from ...runs.trial.status import SIMULATION_ERROR
 from ..batch.flows import make_flows
 from ..batch.rows import Rows
 from ..batch.task import Channel, RowTask, Term
-from ..levels import Value
+from ..levels import FACTORS, Value
 from ..row_task import plan_rows
 from . import numbers as c
 from .currents import RowCurrents
@@ -69,6 +69,7 @@ class Episodes:
         """The name and the size of each part of an observation, in order."""
         self.arrays = make_arrays(n, self.numbers, self.n_actions, sum(sizes))
         self._draws = EpisodeDraws(plan, self.task.index)
+        self._factors = self._draws.factors
         self._actions = np.zeros((n, self.n_actions))
         self.seeds: Ints64 = np.zeros(n, np.int64)
         """The seeds of the episodes, (n,)."""
@@ -89,7 +90,7 @@ class Episodes:
         Args:
             mask: true for these rows, (n,).
             seeds: the seed of each of these rows, in order.
-            choices: the values or ranges of swept parameters (`levels.draw_level`).
+            choices: the values or ranges of swept parameters (`levels.draw_level`) and `FACTORS`.
 
         Raises:
             BadSetting: a seed is invalid.
@@ -100,12 +101,21 @@ class Episodes:
         for target, values in ((self.levels, draws.levels), (self.variations, draws.variations)):
             for name, numbers in values.items():
                 target.setdefault(name, np.zeros(self.n))[rows] = numbers
-        self._rows.reset(mask)
+        self._rows.reset(mask, levels=self._set_factors(rows, draws.factors))
         self._currents.begin(rows.tolist(), seeds, draws)
         begin_episodes(
-            rows, draws.starts, self._rows.vehicles, False, self.numbers, self._rows.arrays,
-            self.arrays,
+            rows, draws.starts, self._rows.vehicles, self._rows.is_varied, self.numbers,
+            self._rows.arrays, self.arrays,
         )  # fmt: skip
+
+    def _set_factors(self, rows: Ints64, values: Mapping[str, Floats]) -> dict[str, Floats]:
+        """Set the factors of some rows, which are 1 unless chosen; return those of all rows."""
+        for name in values:
+            self.levels.setdefault(name, np.ones(self.n))
+        names = [name for name in FACTORS if name in self.levels and name in self._factors]
+        for name in names:
+            self.levels[name][rows] = values.get(name, 1.0)
+        return {FACTORS[name]: self.levels[name] for name in names}
 
     def step(self, actions: npt.ArrayLike, mask: Flags) -> None:
         """Apply actions for one period, or until the episode of a row ends.
@@ -119,7 +129,7 @@ class Episodes:
         vehicles, physics, flows = rows.vehicles, rows.arrays, rows.flows
         rows.share(
             lambda first, end: step_episodes(
-                first, end, mask, vehicles, False, self.numbers, physics, self.arrays,
+                first, end, mask, vehicles, rows.is_varied, self.numbers, physics, self.arrays,
                 self._actions, flows,
             )
         )  # fmt: skip
