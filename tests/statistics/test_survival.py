@@ -73,7 +73,7 @@ def test_with_one_time_limit_the_curve_ends_at_the_exact_interval_of_the_rate(
     curve = success_curve(succeeded(*range(1, n_ok + 1)) + censored(*[60.0] * (n - n_ok)))
     assert curve is not None
     for k, (share, low, high) in enumerate(
-        zip(curve.shares[:n_ok], curve.lows, curve.highs, strict=False), 1
+        zip(curve.shares[: n_ok + 1], curve.lows, curve.highs, strict=False)
     ):
         expected = rate(k, n)
         assert expected is not None

@@ -36,7 +36,7 @@ class SuccessCurve:
     n_successes: int
     """The number of trials that succeeded."""
     times: tuple[float, ...]
-    """The finite times of successes and censoring, in ascending order, each once (k,)."""
+    """0, and the finite times of successes and censoring, in ascending order, each once (k,)."""
     shares: tuple[float, ...]
     """The estimated share that succeeds up to each of the times, 0 to 1 (k,)."""
     lows: tuple[float, ...]
@@ -74,11 +74,11 @@ def success_curve(trials: Sequence[TrialTime], *, confidence: float = 0.95) -> S
     """
     if not trials:
         return None
-    times = sorted({trial.time for trial in trials if math.isfinite(trial.time)})
+    times = sorted({0.0, *(trial.time for trial in trials if math.isfinite(trial.time))})
     tail = (1 - confidence) / 2
     survival, first_moment, second_moment = 1.0, 1.0, 1.0
     n_left = len(trials)
-    steps = [(0.0, 0.0, *_share_limits(1.0, 1.0, n_left, tail))]
+    steps: list[tuple[float, float, float, float]] = []
     for time in times:
         n_events = sum(trial.has_succeeded for trial in trials if trial.time == time)
         a, total = n_left - n_events + 1, n_left + 1
@@ -94,9 +94,9 @@ def success_curve(trials: Sequence[TrialTime], *, confidence: float = 0.95) -> S
         n=len(trials),
         n_successes=sum(trial.has_succeeded for trial in trials),
         times=tuple(times),
-        shares=tuple(share for _, share, _, _ in steps[1:]),
-        lows=tuple(low for _, _, low, _ in steps[1:]),
-        highs=tuple(high for _, _, _, high in steps[1:]),
+        shares=tuple(share for _, share, _, _ in steps),
+        lows=tuple(low for _, _, low, _ in steps),
+        highs=tuple(high for _, _, _, high in steps),
         median=Median(
             n=len(trials),
             value=median_time if math.isfinite(median_time) else None,

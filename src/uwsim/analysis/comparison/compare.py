@@ -13,36 +13,19 @@ from pathlib import Path
 
 from ...errors import ResultError
 from ...results.result import Column
-from ...statistics import (
-    cohens_d,
-    hedges_g,
-    holm,
-    mcnemar,
-    mean_interval,
-    rank_biserial,
-    rate,
-    repeats_needed,
-    sign_flip,
-    signed_rank,
-    vargha_delaney,
-)
+from ...statistics import holm, mcnemar, rate
 from .inputs import Entry, count_same_images, differences, read_entries, remarks, shared_column
 from .model import (
     CONFIDENCE,
-    POWER,
     Comparison,
     LevelStatistics,
     PairComparison,
-    PairedDifference,
     Success,
     SweepStatistics,
-    Verdict,
-    family_size,
-    min_corrected_p,
-    min_family_repeats,
 )
+from .paired_difference import correct_family, paired_difference
 from .pairs import Level, RowPair, pair_rows
-from .repeats import ALPHA
+from .times import compare_times, correct_times
 
 
 def compare_files(
@@ -121,7 +104,7 @@ def compare(
         higher_is_better=higher_is_better,
         experiment_differences=experiment_differences,
         remarks=remarks,
-        pairs=_correct_pairs(pairs, higher_is_better),
+        pairs=correct_times(_correct_pairs(pairs, higher_is_better)),
     )
 
 
@@ -141,6 +124,7 @@ def _compare_pair(
         n_only_first=paired_rows.n_only_first,
         n_only_second=paired_rows.n_only_second,
         same_images=count_same_images(first_entry.result, second_entry.result),
+        times=compare_times(paired_rows.levels),
     )
 
 
@@ -154,7 +138,7 @@ def _compare_at_level(
         n_only_first=has_values.count((True, False)),
         n_only_second=has_values.count((False, True)),
         n_neither=has_values.count((False, False)),
-        value=_paired_difference(_value_pairs(rows), higher_is_better),
+        value=paired_difference(_value_pairs(rows), higher_is_better),
         success=_success(rows),
     )
 
@@ -165,28 +149,6 @@ def _value_pairs(rows: Iterable[RowPair]) -> list[tuple[float, float]]:
         for row in rows
         if row.first_value is not None and row.second_value is not None
     ]
-
-
-def _paired_difference(
-    values: Sequence[tuple[float, float]], higher_is_better: bool
-) -> PairedDifference:
-    first_values, second_values = [a for a, _ in values], [b for _, b in values]
-    paired_differences = [b - a for a, b in values]
-    better_values, worse_values = (
-        (second_values, first_values) if higher_is_better else (first_values, second_values)
-    )
-    is_tested = len(paired_differences) > 1
-    return PairedDifference(
-        first=mean_interval(first_values, confidence=CONFIDENCE),
-        second=mean_interval(second_values, confidence=CONFIDENCE),
-        difference=mean_interval(paired_differences, confidence=CONFIDENCE),
-        cohens_d=cohens_d(paired_differences),
-        hedges_g=hedges_g(paired_differences),
-        rank_biserial=rank_biserial(paired_differences),
-        superiority=vargha_delaney(better_values, worse_values) if is_tested else None,
-        p=sign_flip(paired_differences) if is_tested else None,
-        p_signed_rank=signed_rank(paired_differences) if is_tested else None,
-    )
 
 
 def _success(rows: Sequence[RowPair]) -> Success | None:
@@ -235,8 +197,8 @@ def _compare_over_sweep(
         seeds=tuple(seeds),
         n_levels=len(levels),
         levels=tuple(complete_levels),
-        value=_paired_difference([_mean(pairs) for pairs in values if pairs], higher_is_better),
-        success=_paired_difference(
+        value=paired_difference([_mean(pairs) for pairs in values if pairs], higher_is_better),
+        success=paired_difference(
             [_mean([(float(a is True), float(b is True)) for a, b in flags]) for flags in ok_flags],
             higher_is_better=True,
         )
@@ -264,13 +226,13 @@ def _correct_pairs(
     over the sweep, and success over the sweep.
     """
     levels = [stats for pair in pairs for stats in pair.levels]
-    values = _correct_family([stats.value for stats in levels], higher_is_better)
+    values = correct_family([stats.value for stats in levels], higher_is_better)
     successes = holm(
         [stats.success.p if stats.success and stats.success.is_tested else None for stats in levels]
     )
-    sweep_differences = _correct_family([pair.sweep.value for pair in pairs], higher_is_better)
+    sweep_differences = correct_family([pair.sweep.value for pair in pairs], higher_is_better)
     success_differences = iter(
-        _correct_family([pair.sweep.success for pair in pairs if pair.sweep.success], True)
+        correct_family([pair.sweep.success for pair in pairs if pair.sweep.success], True)
     )
     corrected_levels = iter(
         replace(
@@ -292,51 +254,3 @@ def _correct_pairs(
         )
         for pair, value in zip(pairs, sweep_differences, strict=True)
     )
-
-
-def _correct_family(
-    family: Sequence[PairedDifference], higher_is_better: bool
-) -> list[PairedDifference]:
-    """Apply Holm's correction to a family of tests; add verdicts and the repeats needed.
-
-    Tests that could not reach `ALPHA` without correction are not part of the family (Tarone 1990),
-    because they can never be significant. The repeats needed are planned for the strictest step of
-    the correction.
-    """
-    alpha, repeats_to_test = ALPHA / family_size(family), min_family_repeats(family)
-    p_values = holm([d.p if d.is_tested else None for d in family])
-    return [
-        replace(
-            d,
-            p_holm=p,
-            verdict=_verdict(
-                d,
-                p,
-                can_differ=d.difference.n >= repeats_to_test
-                or (min_p is not None and min_p <= ALPHA),
-                higher_is_better=higher_is_better,
-            ),
-            repeats_to_test=repeats_to_test,
-            repeats_needed=None
-            if d.hedges_g is None
-            else repeats_needed(d.hedges_g, alpha=alpha, target_power=POWER),
-        )
-        for d, p, min_p in zip(family, p_values, min_corrected_p(family), strict=True)
-    ]
-
-
-def _verdict(
-    d: PairedDifference, p: float | None, *, can_differ: bool, higher_is_better: bool
-) -> Verdict:
-    mean, n = d.difference.mean, d.difference.n
-    if n == 0 or mean is None:
-        return "no pair"
-    if n == 1:
-        return "one repeat"
-    if mean == 0.0 and d.difference.std == 0.0:
-        return "equal"
-    if not can_differ:
-        return "too few"
-    if p is None or p > ALPHA:
-        return "not shown"
-    return "second" if (mean > 0) == higher_is_better else "first"

@@ -8,7 +8,8 @@
 
 There is a line for each level of each pair of results, and a line for the sweep as a whole; most
 columns are left out here. The columns after the level have the names of keys in
-``comparison.json``, from ``seeds`` and ``n_pairs`` to ``p_ok_holm``.
+``comparison.json``, from ``seeds`` and ``n_pairs`` to ``p_ok_holm``. Results of a task have those
+of ``times``, too, from ``time_median_first`` to ``p_time_log_rank``.
 Differences are second minus first. ``docs/statistics.md`` defines every column. An empty field
 means that there is no value.
 """
@@ -18,6 +19,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 from collections.abc import Mapping
 
 from ...results.per_level import intervals_of, success_rates
@@ -28,8 +30,10 @@ from .model import (
     POWER,
     Comparison,
     LevelStatistics,
+    LevelTimes,
     PairComparison,
     PairedDifference,
+    PairTimes,
     SweepStatistics,
 )
 from .repeats import ALPHA
@@ -63,12 +67,20 @@ def json_text(comparison: Comparison) -> str:
 def csv_text(comparison: Comparison) -> str:
     """Return the text of ``comparison.csv``."""
     labels = [column.label for column in comparison.entries[0].result.columns_of_kind("level")]
+    has_times = any(pair.times is not None for pair in comparison.pairs)
     lines: list[tuple[list[object], Fields]] = []
     for pair in comparison.pairs:
         names = [pair.first.name, pair.second.name]
+        level_times = {t.level: t for t in pair.times.levels} if pair.times else {}
         for stats in pair.levels:
-            lines.append(([*names, "level", *map(repr, stats.level)], _level_fields(stats)))
-        lines.append(([*names, "sweep", *("" for _ in labels)], _sweep_fields(pair.sweep)))
+            fields = _level_fields(stats)
+            if has_times:
+                fields |= _time_fields(level_times.get(stats.level))
+            lines.append(([*names, "level", *map(repr, stats.level)], fields))
+        fields = _sweep_fields(pair.sweep)
+        if has_times:
+            fields |= _sweep_time_fields(pair.times)
+        lines.append(([*names, "sweep", *("" for _ in labels)], fields))
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     key_columns, number_columns = ["first", "second", "scope"], list(lines[0][1])
@@ -133,6 +145,20 @@ def _pair_fields(comparison: Comparison, pair: PairComparison) -> Fields:
             **_sweep_fields(pair.sweep),
         },
         "levels": [{"level": list(stats.level), **_level_fields(stats)} for stats in pair.levels],
+        **(
+            {
+                "times": {
+                    "limit": pair.times.limit,
+                    "sweep": _time_difference_fields(pair.times.sweep),
+                    "levels": [
+                        {"level": list(times.level), **_time_fields(times)}
+                        for times in pair.times.levels
+                    ],
+                }
+            }
+            if pair.times
+            else {}
+        ),
     }
 
 
@@ -171,6 +197,46 @@ def _sweep_fields(sweep: SweepStatistics) -> Fields:
         "p_ok": success.p if success else None,
         "p_ok_holm": success.p_holm if success else None,
     }
+
+
+def _time_fields(times: LevelTimes | None) -> Fields:
+    """Return the fields of the times to success at a level; limits beyond all times are None."""
+    fields: Fields = {}
+    for name, curve in (("first", times and times.first), ("second", times and times.second)):
+        median = curve and curve.median
+        fields |= {
+            f"time_median_{name}": median and median.value,
+            f"time_median_{name}_low": _finite(median.low) if median else None,
+            f"time_median_{name}_high": _finite(median.high) if median else None,
+        }
+    return {
+        **fields,
+        **_time_difference_fields(times.difference if times else None),
+        "p_time_log_rank": times and times.p_log_rank,
+    }
+
+
+def _sweep_time_fields(times: PairTimes | None) -> Fields:
+    """Return the fields of `_time_fields` for the whole sweep, which has no median."""
+    return _time_fields(None) | _time_difference_fields(times.sweep if times else None)
+
+
+def _time_difference_fields(d: PairedDifference | None) -> Fields:
+    return {
+        "time_n": d and d.difference.n,
+        "time_first_mean": d and d.first.mean,
+        "time_second_mean": d and d.second.mean,
+        "time_difference": d and d.difference.mean,
+        "time_difference_low": d and d.difference.low,
+        "time_difference_high": d and d.difference.high,
+        "p_time": d and d.p,
+        "p_time_holm": d and d.p_holm,
+        "time_verdict": d and d.verdict,
+    }
+
+
+def _finite(limit: float | None) -> float | None:
+    return None if limit is None or math.isinf(limit) else limit
 
 
 def _difference_fields(d: PairedDifference) -> Fields:

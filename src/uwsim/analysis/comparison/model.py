@@ -8,7 +8,7 @@ from typing import Literal
 
 from ...base.deprecation import deprecated_name
 from ...results.result import Column
-from ...statistics import Interval, Rate, holm, min_p_value, min_pairs
+from ...statistics import Interval, Rate, SuccessCurve, holm, min_p_value, min_pairs
 from .inputs import Entry
 from .pairs import Level
 from .repeats import ALPHA
@@ -140,6 +140,35 @@ class SweepStatistics:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LevelTimes:
+    """The times to success of two results of a task at one level, over all paired repeats."""
+
+    level: Level
+    """The values of the swept parameters, outermost first."""
+    first: SuccessCurve
+    """The times to success of the first result [s]."""
+    second: SuccessCurve
+    """The times to success of the second result [s]."""
+    difference: PairedDifference
+    """The differences of the times to success, at most the time limit [s]; shorter is better."""
+    p_log_rank: float | None
+    """The p-value of the paired log-rank test, not corrected; None for fewer than two repeats."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairTimes:
+    """The comparison of the times to success of two results of a task."""
+
+    limit: float
+    """The time limit [s]: the latest end of a trial of any level that is not known to have failed.
+    A trial without success up to it counts with it."""
+    levels: tuple[LevelTimes, ...]
+    """The comparison at every shared level."""
+    sweep: PairedDifference
+    """The differences of the mean over the levels [s], a mean for each seed that has them all."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class PairComparison:
     """The comparison of two results."""
 
@@ -158,6 +187,8 @@ class PairComparison:
     same_images: tuple[int, int] | None
     """The number of image streams that both results have, and how many of them are identical; None
     if they have none in common."""
+    times: PairTimes | None = None
+    """The times to success; None if a result is not of a task, or no trial ever succeeded."""
 
     @property
     @deprecated_name("sweep")

@@ -14,12 +14,15 @@ from ..templates import data_url, template
 from .matrix import few_repeats_text, matrix, matrix_note, matrix_title
 from .model import Comparison, PairComparison
 from .sentences import distinct_texts, sentences
-from .terminal import heading, lines
+from .terminal import TIME_LEGEND, heading, lines
+from .time_table import time_heading, time_lines, time_sentence
 
 CAPTIONS = {
     "curves": "Mean over the repeats of each result, with its 95 % interval.",
     "differences": "Paired differences with their 95 % intervals. A filled marker is a level at "
     "which one result is better after Holm's correction.",
+    "times": "Share of all trials that have succeeded by each time (Kaplan and Meier), from the "
+    "beginning of the trial up to the time limit.",
     "success": "Share of repeats that ended ok, with its exact 95 % interval. The markers are "
     "shifted so that none hides another.",
 }
@@ -49,9 +52,13 @@ def render(comparison: Comparison, plots: Sequence[Path]) -> str:
                     for column in pair.first.result.columns_of_kind("level")
                 ],
                 "lines": lines(comparison, pair),
+                "time_heading": time_heading(pair),
+                "time_lines": time_lines(pair),
+                "time_sentence": time_sentence(comparison, pair),
             }
             for pair in comparison.pairs
         ],
+        time_legend=TIME_LEGEND,
         results=[
             {
                 "name": entry.name,

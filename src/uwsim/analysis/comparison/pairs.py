@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from ...errors import ResultError
 from ...results.per_level import round_level, rows_by_level, seeds_of
 from ...results.result import Result
+from ...statistics import TrialTime
+from ..task import success_times, task_measure
 from .inputs import Entry
 
 Level = tuple[float, ...]
@@ -27,6 +29,8 @@ class RowPair:
     """True if the first row ended ``ok``; None if the first result has no status."""
     second_ok: bool | None
     """True if the second row ended ``ok``; None if the second result has no status."""
+    times: tuple[TrialTime, TrialTime] | None = None
+    """The times to success of both rows [s]; None if a result is not of a task."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +54,7 @@ def pair_rows(first_entry: Entry, second_entry: Entry, column: str) -> PairedRow
     first_rows, second_rows = _rows(first_entry), _rows(second_entry)
     levels: dict[Level, list[RowPair]] = {}
     first_ok, second_ok = _ok_flags(first_entry.result), _ok_flags(second_entry.result)
+    first_times, second_times = _times(first_entry.result), _times(second_entry.result)
     first_values = first_entry.result.numbers(column)
     second_values = second_entry.result.numbers(column)
     for (seed, level, n_earlier), first_row in first_rows.items():
@@ -61,6 +66,9 @@ def pair_rows(first_entry: Entry, second_entry: Entry, column: str) -> PairedRow
                 second_value=second_values[second_row],
                 first_ok=first_ok[first_row],
                 second_ok=second_ok[second_row],
+                times=(first_times[first_row], second_times[second_row])
+                if first_times and second_times
+                else None,
             )
             levels.setdefault(level, []).append(pair)
     n = sum(len(pairs) for pairs in levels.values())
@@ -98,6 +106,10 @@ def _ok_flags(result: Result) -> tuple[bool | None, ...]:
     if not status:
         return (None,) * len(result.rows)
     return tuple(cell == "ok" for cell in result.values(status[0].name))
+
+
+def _times(result: Result) -> tuple[TrialTime, ...] | None:
+    return success_times(result) if task_measure(result) is not None else None
 
 
 def _seeds_and_levels(rows: dict[tuple[int, Level, int], int]) -> str:

@@ -1,4 +1,4 @@
-"""Plots of a comparison: curves with bands, differences about a zero line, and success rates.
+"""Plots of a comparison: curves with bands, differences about a zero line, success rates, times.
 
 Bands and bars are 95 % intervals. In the plot of differences, a filled marker is a level at which
 one result is better after Holm's correction; a hollow marker shows no difference. A single level is
@@ -19,7 +19,7 @@ from matplotlib.transforms import offset_copy
 
 from ...results.per_level import intervals_of, select_levels, success_rates
 from ...results.result import Column
-from ...statistics import Interval, Rate
+from ...statistics import Interval, Rate, success_curve
 from ..plots import (
     GREY,
     INK,
@@ -37,6 +37,7 @@ from ..plots import (
     written_unit,
 )
 from ..plots.drawing import write_no_data
+from ..task import draw_success_curve, success_times, task_measure
 from .inputs import Entry
 from .model import Comparison, LevelStatistics, PairComparison
 
@@ -50,6 +51,8 @@ def draw_comparison(comparison: Comparison, directory: Path) -> tuple[Path, ...]
     figures = {"curves": curves_plot(comparison)}
     if (success_figure := success_plot(comparison)) is not None:
         figures["success"] = success_figure
+    if (times_figure := times_plot(comparison)) is not None:
+        figures["times"] = times_figure
     figures["differences"] = differences_plot(comparison)
     files = []
     for name, figure in figures.items():
@@ -137,6 +140,33 @@ def success_plot(comparison: Comparison) -> Figure | None:
         _label_levels(axes, comparison)
         figure.legend(loc="outside right upper")
         write_note(figure, "bars: exact 95 % intervals (Clopper and Pearson) over repeats")
+    return figure
+
+
+def times_plot(comparison: Comparison) -> Figure | None:
+    """Draw the share of all trials that succeeded by each time; None without times.
+
+    The levels of a seed are not independent, so intervals are drawn for a single level only.
+    """
+    entries = _common_entries(comparison)
+    limit = max((pair.times.limit for pair in comparison.pairs if pair.times), default=None)
+    if limit is None:
+        return None
+    with styled_figure((SIZE[0] + 1.6, 2.8)) as figure:
+        axes = figure.subplots()
+        for i, entry in enumerate(entries):
+            times = success_times(entry.result) if task_measure(entry.result) else None
+            if times and (curve := success_curve(times)) is not None:
+                draw_success_curve(
+                    axes, curve, limit, i, entry.name, has_band=_has_one_level(comparison)
+                )
+        axes.set(xlabel="time [s]", ylabel="share that succeeded")
+        axes.set(xlim=(0.0, limit), ylim=(-0.03, 1.03))
+        figure.legend(loc="outside right upper")
+        if _has_one_level(comparison):
+            write_note(figure, "bands: 95 % intervals of each share over repeats")
+        else:
+            write_note(figure, "over all levels; the levels of a repeat are not independent")
     return figure
 
 

@@ -16,6 +16,7 @@ from ...statistics import Interval
 from .matrix import CellVerdict, matrix, matrix_note, matrix_title
 from .model import Comparison, LevelStatistics, PairComparison
 from .sentences import needed_text, p_text, sentences, short_verdict
+from .time_table import time_heading, time_lines, time_sentence
 
 STYLES: dict[CellVerdict, str] = {"better": "green", "worse": "red", "too few": "yellow"}
 LEGEND = (
@@ -26,6 +27,12 @@ LEGEND = (
     "The column ok gives the numbers of repeats that ended ok, first : second. "
     "The column needs gives the number of repeats with which the observed difference would be "
     "detected in 4 of 5 experiments. See docs/statistics.md."
+)
+TIME_LEGEND = (
+    "Times to success: the number of successes, and the median time with its 95 % interval "
+    "(Kaplan and Meier). A trial that fails counts as without success for ever. A dash is beyond "
+    "the time limit. The difference is that of the mean times, at most the time limit. log-rank "
+    "is the p-value of the paired log-rank test, not corrected."
 )
 OMITTED_COLUMNS = ("a", "g", "ok", "n")
 """The columns that a narrow terminal omits, in this order, by their field of `ComparisonLine`. They
@@ -115,7 +122,14 @@ def renderables(comparison: Comparison, *, width: int) -> Iterator[RenderableTyp
         for sentence in sentences(comparison, pair):
             yield Padding(Text(sentence), (0, 0, 0, 2), expand=False)
         yield Text("")
+        if pair.times is not None:
+            yield Text(time_heading(pair), style="bold")
+            yield _time_table(pair)
+            yield Padding(Text(time_sentence(comparison, pair)), (0, 0, 0, 2), expand=False)
+            yield Text("")
     yield Text(LEGEND)
+    if any(pair.times is not None for pair in comparison.pairs):
+        yield Text(TIME_LEGEND)
 
 
 def _matrix_parts(comparison: Comparison, width: int) -> Iterator[RenderableType]:
@@ -162,6 +176,19 @@ def _table(comparison: Comparison, pair: PairComparison, width: int) -> Table:
     for i, row in enumerate(rows):
         cells = [Text(column.cells[i]) for column in columns]
         table.add_row(*cells, style="bold" if row.is_conclusive else "")
+    return table
+
+
+def _time_table(pair: PairComparison) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    levels = [column.label for column in pair.first.result.columns_of_kind("level")]
+    names = [pair.first.name, pair.second.name]
+    for heading in (*levels, *names, "difference", "p", "log-rank"):
+        table.add_column(Text(heading, justify="right"), justify="right", overflow="fold")
+    table.add_column(Text("verdict"))
+    for row in time_lines(pair):
+        cells = (*row.level, row.first, row.second, row.difference, row.p, row.p_log_rank)
+        table.add_row(*map(Text, (*cells, row.verdict)), style="bold" if row.is_conclusive else "")
     return table
 
 

@@ -12,7 +12,7 @@ from .page import render
 from .plots import draw_comparison
 
 WRITTEN_FILES = re.compile(
-    r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf))"
+    r"(comparison\.(json|csv|html)|plots/(curves|differences|success|times)\.(png|pdf))"
 )
 """The paths of the files that uwsim writes into the directory of a comparison."""
 WRITTEN_FOLDERS = ("plots",)

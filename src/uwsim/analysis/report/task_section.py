@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from ...results.result import Result
 from ...results.table import number_text, sensible_decimals
+from ...statistics import TrialTime, success_curve
 from ..plots import written_unit
 from ..task import (
     TaskCell,
     crossing_sentence,
     draw_task_figures,
     find_crossings,
+    success_times,
     task_cells,
     task_measure,
 )
@@ -37,6 +41,10 @@ class TaskRow:
     """True if half or more of the episodes succeed."""
     failures: str
     """The failures: ``2 dropped, 1 missed``."""
+    time: str
+    """The median time to success over all episodes; a dash if fewer than half succeed."""
+    time_limits: str
+    """The confidence limits of this median: ``41.2 to 55.0``; a dash for an unknown limit."""
     medians: tuple[str, ...]
     """The medians over the successes; a dash if there is none."""
 
@@ -74,6 +82,7 @@ def task_section(result: Result, folder: Path) -> TaskSection | None:
     names = [column.name for column in result.columns_of_kind("measure") if column is not judge]
     names += [f"{judge.name}.{detail}" for detail in DETAILS]
     columns = [columns_by_name[name] for name in names if name in columns_by_name]
+    trials = success_times(result)
     n = sum(cell.success.n for cell in cells)
     n_ok = sum(cell.success.successes for cell in cells)
     return TaskSection(
@@ -89,20 +98,40 @@ def task_section(result: Result, folder: Path) -> TaskSection | None:
         level_heads=tuple(
             (c.name, written_unit(c.unit or "")) for c in result.columns_of_kind("level")
         ),
-        rows=tuple(_row(result, cell, [column.name for column in columns]) for cell in cells),
+        rows=tuple(
+            _row(result, cell, [column.name for column in columns], trials) for cell in cells
+        ),
     )
 
 
-def _row(result: Result, cell: TaskCell, columns: list[str]) -> TaskRow:
+def _row(
+    result: Result, cell: TaskCell, columns: list[str], trials: Sequence[TrialTime] | None
+) -> TaskRow:
     success = cell.success
+    time, time_limits = _time_texts([trials[row] for row in cell.rows] if trials else [])
     return TaskRow(
         level=tuple(f"{value:g}" for value in cell.level),
         success=f"{success.successes} of {success.n}",
         limits=f"{100 * success.low:.0f} to {100 * success.high:.0f} %",
         is_at_least_half=success.value >= 0.5,
         failures=", ".join(f"{n} {status}" for status, n in cell.failures.items()),
+        time=time,
+        time_limits=time_limits,
         medians=tuple(_median(result, cell, column) for column in columns),
     )
+
+
+def _time_texts(trials: Sequence[TrialTime]) -> tuple[str, str]:
+    """Return the median time to success [s] and its limits, as text."""
+    curve = success_curve(trials)
+    if curve is None:
+        return "–", ""
+    median = curve.median
+    value, low, high = (
+        "–" if time is None or math.isinf(time) else f"{time:.1f}"
+        for time in (median.value, median.low, median.high)
+    )
+    return value, f"{low} to {high}"
 
 
 def _median(result: Result, cell: TaskCell, column: str) -> str:

@@ -1,4 +1,4 @@
-"""The figures of a task: a map of success rates, rates along each parameter, times of phases."""
+"""The figures of a task: success rates, times to success, times of phases."""
 
 from __future__ import annotations
 
@@ -12,10 +12,22 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from ...results.result import Result
-from ..plots import GREY, INK, PALETTE, level_label, level_text, save_plot, styled_figure
+from ...statistics import SuccessCurve, success_curve
+from ..plots import (
+    GREY,
+    INK,
+    PALETTE,
+    choose_evenly,
+    escape,
+    level_label,
+    level_text,
+    save_plot,
+    styled_figure,
+)
 from .cells import TaskCell, task_cells
 from .crossing import cells_along
 from .phases import phase_means
+from .success_times import success_times, time_limit
 
 COLOURS = {
     "ok": "#009E73",
@@ -32,11 +44,20 @@ COLOURS = {
 """The colour of each status. The last two repeat the colours of ``algorithm error`` and ``lost
 target``; colour-blind readers can distinguish the others."""
 SUCCESS_MAP, SUCCESS_RATES, PHASE_TIMES = "success-map", "success-rates", "phases"
+SUCCESS_TIMES = "success-times"
+MAX_CURVES = 6
+"""The greatest number of levels in a panel of times; of more levels, evenly chosen ones."""
+MAX_BANDS = 2
+"""The greatest number of curves in a panel that have bands."""
+DASHES = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1)), (0, (8, 2)), (0, (2, 2)))
+"""The line styles of curves of successes, which differ in grey print, too."""
 CAPTIONS = {
     SUCCESS_MAP: "Left: success rate with its exact 95 % interval (Clopper and Pearson); it "
     "crosses 50 % at the black line. Right: the status of the episodes of each level",
     SUCCESS_RATES: "Success rate along each parameter, the other at its first value, with exact "
     "95 % intervals; dashed: 50 %",
+    SUCCESS_TIMES: "Share of the episodes that have succeeded by each time (Kaplan and Meier), "
+    "along each parameter, the other at its first value",
     PHASE_TIMES: "Mean time in each phase over all episodes, the other parameter at its first "
     "value",
 }
@@ -51,6 +72,8 @@ def draw_task_figures(result: Result, folder: Path) -> dict[Path, str]:
         figures[SUCCESS_MAP] = success_map(result, cells)
     if parameters:
         figures[SUCCESS_RATES] = success_rates(result, cells, parameters)
+        if (times_figure := times_to_success(result, cells, parameters)) is not None:
+            figures[SUCCESS_TIMES] = times_figure
         if any(phase_means(result, cell) for cell in cells):
             figures[PHASE_TIMES] = phase_times(result, cells, parameters)
     return {
@@ -151,6 +174,62 @@ def success_rates(result: Result, cells: Sequence[TaskCell], parameters: Sequenc
             axes.set_ylim(-0.04, 1.04)
         grid[0].set_ylabel("success rate [1]")
     return figure
+
+
+def times_to_success(
+    result: Result, cells: Sequence[TaskCell], parameters: Sequence[int]
+) -> Figure | None:
+    """Draw the share that succeeded by each time along each parameter; None without successes."""
+    trials = success_times(result)
+    if trials is None or not any(trial.has_succeeded for trial in trials):
+        return None
+    limit = time_limit(trials) or 1.0
+    columns = result.columns_of_kind("level")
+    with styled_figure((3.4 * len(parameters), 2.7)) as figure:
+        grid = figure.subplots(1, len(parameters), sharey=True, squeeze=False)[0]
+        for axes, parameter in zip(grid, parameters, strict=True):
+            line = choose_evenly(cells_along(cells, parameter, cells[0].level), MAX_CURVES)
+            for i, cell in enumerate(line):
+                curve = success_curve([trials[row] for row in cell.rows])
+                assert curve is not None
+                name = level_text(columns[parameter], cell.level[parameter])
+                has_band = len(line) <= MAX_BANDS
+                draw_success_curve(axes, curve, limit, i, name, has_band=has_band)
+            fixed = _label_with_fixed_levels(result, parameter, cells[0].level).partition("\n")[2]
+            axes.set_xlabel(f"time [s]\n{fixed}" if fixed else "time [s]")
+            axes.set(xlim=(0.0, limit), ylim=(-0.04, 1.04))
+            axes.legend(loc="best")
+        grid[0].set_ylabel("share that succeeded [1]")
+    return figure
+
+
+def draw_success_curve(
+    axes: Axes, curve: SuccessCurve, limit: float, i: int, name: str, *, has_band: bool
+) -> None:
+    """Draw a curve of successes as steps up to the time limit.
+
+    Args:
+        axes: the axes to draw on.
+        curve: the curve.
+        limit: the time limit [s].
+        i: the index of the curve, which determines its colour and dashes.
+        name: the name in the legend.
+        has_band: True to draw the 95 % intervals.
+    """
+    colour, dashes = PALETTE[i % len(PALETTE)], DASHES[i % len(DASHES)]
+    times, shares, lows, highs = (
+        [*values, end]
+        for values, end in (
+            (curve.times, limit),
+            (curve.shares, curve.shares[-1]),
+            (curve.lows, curve.lows[-1]),
+            (curve.highs, curve.highs[-1]),
+        )
+    )
+    label = escape(f"{name} ({curve.n_successes} of {curve.n})")
+    axes.step(times, shares, where="post", color=colour, linestyle=dashes, label=label)
+    if has_band:
+        axes.fill_between(times, lows, highs, step="post", color=colour, alpha=0.15, linewidth=0)
 
 
 def _label_with_fixed_levels(result: Result, parameter: int, levels: tuple[float, ...]) -> str:

@@ -1,0 +1,69 @@
+"""The times to success of the trials of a task, from the statuses and times of its rows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ...results.result import Result
+from ...statistics import TrialTime
+from ..plots import repeats_of
+
+UNDECIDED_STATUSES = ("timeout", "simulation error")
+"""The statuses of trials that end without success or failure: they are censored."""
+
+
+def success_times(result: Result) -> tuple[TrialTime, ...] | None:
+    """Return the time to success of each row [s of simulation time]; None without statuses.
+
+    The time is that from the beginning of the level to its end. It counts as follows:
+
+    - ``ok``: the trial succeeded at this time.
+    - ``timeout``, ``simulation error``: without success up to this time, and unknown after it.
+    - any other status (``collision``, ``dropped``, ``lost``, ...): the trial failed for good. It
+      counts as without success for ever, so its time is infinite. Censored at its end, it would
+      count as if it could still have succeeded.
+
+    Use it for results of tasks (`task_measure`), whose levels end with success.
+    """
+    status_columns, time_columns = (result.columns_of_kind(kind) for kind in ("status", "time"))
+    if not status_columns or not time_columns:
+        return None
+    statuses = result.values(status_columns[0].name)
+    durations = _durations(result, result.numbers(time_columns[0].name))
+    return tuple(
+        TrialTime(
+            time=duration if status == "ok" or status in UNDECIDED_STATUSES else math.inf,
+            has_succeeded=status == "ok",
+        )
+        for status, duration in zip(statuses, durations, strict=True)
+    )
+
+
+def time_limit(trials: Sequence[TrialTime]) -> float | None:
+    """Return the latest finite time of any trial [s]: the time limit, or the last success."""
+    return max((trial.time for trial in trials if math.isfinite(trial.time)), default=None)
+
+
+def restricted_time(trial: TrialTime, limit: float) -> float | None:
+    """Return the time to success, at most ``limit`` [s]; None for a trial censored before.
+
+    A trial without success up to the limit counts with the limit. The mean is the area above the
+    curve of successes up to the limit (Royston and Parmar 2013).
+    """
+    if not trial.has_succeeded and trial.time < limit - 1e-6:
+        return None
+    return min(trial.time, limit)
+
+
+def _durations(result: Result, end_times: Sequence[float | None]) -> list[float]:
+    """Return the duration of each row [s]; times of a sequence are summed over its levels."""
+    if result.run.mode == "independent":
+        return [max(0.0, time or 0.0) for time in end_times]
+    last_times: dict[tuple[object, ...], float] = {}
+    durations = []
+    for repeat, time in zip(repeats_of(result), end_times, strict=True):
+        start_time = last_times.get(repeat, 0.0)
+        last_times[repeat] = start_time if time is None else time
+        durations.append(max(0.0, last_times[repeat] - start_time))
+    return durations
