@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from ..base.terminal import clean_text
+from ..errors import BadSetting
 from .options.help_texts import COMPARISON, OUTPUT, option
 from .options.options import JsonOption, OverwriteOption
 from .output.console import standard_output
@@ -51,6 +52,15 @@ class CompareOptions:
     higher_is_better: Annotated[
         bool, option(COMPARISON, "--higher-is-better", help="Larger values are better.")
     ] = False
+    overview: Annotated[
+        bool,
+        option(
+            COMPARISON,
+            "--overview",
+            help="Show the success of all algorithms in all benchmarks of the results: a heat map, "
+            "and the ranks of the algorithms.",
+        ),
+    ] = False
     force: Annotated[
         bool,
         option(
@@ -84,7 +94,13 @@ def compare(
     Results of different benchmarks, scenes, models, modes, timesteps, compatibility or settings of
     the scene are an error. It writes comparison.json, comparison.csv, comparison.html, plots as PNG
     and PDF. docs/statistics.md explains the numbers.
+
+    With --overview the results may be of several benchmarks. It writes overview.png, overview.pdf,
+    overview.csv and overview.json.
     """
+    if options.overview:
+        _write_overview(expand_results(results), options, output, as_json=as_json)
+        return
     from ..analysis.comparison import compare_files, write_comparison
     from ..analysis.comparison.document import json_text
     from ..analysis.comparison.terminal import renderables
@@ -114,6 +130,35 @@ def compare(
     for part in renderables(comparison, width=console.width):
         console.print(part)
     print(f"written: {out}/comparison.json, comparison.csv, plots; page: {page}")
+
+
+def _write_overview(
+    paths: list[Path], options: CompareOptions, output: ComparisonOutput, *, as_json: bool
+) -> None:
+    """Write the overview of results of several benchmarks; print it, or the ranks."""
+    from ..analysis.overview import overview_json, rank_algorithms, read_tasks, write_overview
+    from ..analysis.overview.terminal import overview_parts
+    from ..analysis.overview.write import OVERVIEW_FILES
+    from ..results.directory import clear_directory
+
+    if options.measure is not None or options.baseline is not None or options.higher_is_better:
+        raise BadSetting(
+            "--overview shows success rates: leave out --measure, --baseline, --higher-is-better."
+        )
+    tasks = read_tasks(paths, force=options.force)
+    clear_directory(output.out, overwrite=output.overwrite, pattern=OVERVIEW_FILES, folders=())
+    for task in tasks:
+        if task.experiment_differences:
+            text = f"{task.name}: not of one experiment: {'; '.join(task.experiment_differences)}"
+            print(clean_text(f"warning: {text}"), file=sys.stderr)
+    image = write_overview(tasks, output.out)
+    if as_json:
+        print(overview_json(tasks, rank_algorithms(tasks)), end="")
+        return
+    console = standard_output()
+    for part in overview_parts(tasks):
+        console.print(part)
+    print(f"written: {image}, overview.pdf, overview.csv, overview.json")
 
 
 def expand_results(paths: Sequence[Path]) -> list[Path]:

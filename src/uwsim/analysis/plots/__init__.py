@@ -34,6 +34,7 @@ from .style import (
     styled_figure,
     write_note,
 )
+from .success_overview import OverviewRow, success_overview
 
 __all__ = [
     "CONTROL_ALGORITHM",
@@ -45,6 +46,7 @@ __all__ = [
     "OVERVIEW_NAME",
     "PALETTE",
     "SIZE",
+    "OverviewRow",
     "RunPlot",
     "algorithm_of",
     "choose_evenly",
@@ -63,6 +65,7 @@ __all__ = [
     "save_plot",
     "small_multiples",
     "styled_figure",
+    "success_overview",
     "value_plot",
     "write_note",
     "written_unit",

@@ -1,0 +1,122 @@
+"""The tasks of an overview: the results of each benchmark, and their success rates by level."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ...errors import ResultError
+from ...results.per_level import round_level, success_rates
+from ...results.result import Column
+from ...results.table import exact_decimals, number_text
+from ...statistics import Rate
+from ..comparison import Entry, differences, read_entries
+from ..plots import OverviewRow, algorithm_of, level_label, levels_text
+
+Level = tuple[float, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class OverviewTask:
+    """The results of one benchmark, one for each algorithm."""
+
+    name: str
+    """The name of the benchmark file without its suffix."""
+    entries: tuple[Entry, ...]
+    """The results, with names that are unique in the task."""
+    experiment_differences: tuple[str, ...] = ()
+    """The differences between the results that make them incomparable."""
+
+    @property
+    def level_columns(self) -> tuple[Column, ...]:
+        """The swept parameters, outermost first, without that of the updater ``none``."""
+        columns = self.entries[0].result.columns_of_kind("level")
+        return tuple(column for column in columns if column.name != "none")
+
+    def rates(self) -> dict[str, dict[Level, Rate]]:
+        """Return the success rate at each level, by the name of the algorithm."""
+        return {
+            entry.name: {
+                round_level(level_rate.level): level_rate.success
+                for level_rate in success_rates(entry.result)
+                if level_rate.success is not None
+            }
+            for entry in self.entries
+        }
+
+
+def read_tasks(paths: Sequence[Path], *, force: bool = False) -> tuple[OverviewTask, ...]:
+    """Read results of several benchmarks, and group them by benchmark.
+
+    An algorithm has the same name in all tasks. Two results of one algorithm in the same task have
+    their directory in their names.
+
+    Args:
+        paths: result directories, or their ``result.json``; at least two.
+        force: True to accept results of one benchmark that are of different experiments.
+
+    Raises:
+        ResultError: a result cannot be read or has no status, or results of one benchmark differ
+            in their scene, mode, timestep or settings.
+    """
+    groups: dict[str, list[Entry]] = {}
+    for entry in read_entries(paths):
+        if not entry.result.columns_of_kind("status"):
+            raise ResultError(f"{entry.source}: has no status; expected a result of a benchmark.")
+        groups.setdefault(entry.result.inputs.title, []).append(entry)
+    tasks = tuple(
+        OverviewTask(
+            name=name,
+            entries=_rename_entries(entries),
+            experiment_differences=differences(entries),
+        )
+        for name, entries in groups.items()
+    )
+    for task in tasks:
+        if task.experiment_differences and not force:
+            raise ResultError(
+                f"The results of {task.name} are not of one experiment: "
+                f"{'; '.join(task.experiment_differences)}. Use --force to show them anyway."
+            )
+    return tasks
+
+
+def algorithm_names(tasks: Sequence[OverviewTask]) -> tuple[str, ...]:
+    """Return the names of all algorithms, in the order of the results."""
+    return tuple(dict.fromkeys(entry.name for task in tasks for entry in task.entries))
+
+
+def overview_rows(tasks: Sequence[OverviewTask]) -> tuple[OverviewRow, ...]:
+    """Return the rows of the heat map: one for each task and value of its outer parameters."""
+    rows: list[OverviewRow] = []
+    for task in tasks:
+        rates = task.rates()
+        columns = task.level_columns
+        all_levels = sorted({level for levels in rates.values() for level in levels})
+        for outer_level in dict.fromkeys(level[:-1] for level in all_levels):
+            levels = [level for level in all_levels if level[:-1] == outer_level]
+            decimals = exact_decimals([level[-1] for level in levels if level])
+            rows.append(
+                OverviewRow(
+                    task=task.name,
+                    parameter=level_label(columns[-1]) if columns else "",
+                    outer_level=levels_text(columns[:-1], outer_level) if columns[:-1] else "",
+                    levels=tuple(
+                        number_text(level[-1], decimals) if columns else "" for level in levels
+                    ),
+                    rates={
+                        name: tuple(level_rates.get(level) for level in levels)
+                        for name, level_rates in rates.items()
+                    },
+                )
+            )
+    return tuple(rows)
+
+
+def _rename_entries(entries: Sequence[Entry]) -> tuple[Entry, ...]:
+    names = [algorithm_of(entry.result) or "no algorithm" for entry in entries]
+    return tuple(
+        replace(entry, name=name if names.count(name) == 1 else f"{name} ({entry.source})")
+        for name, entry in zip(names, entries, strict=True)
+    )
