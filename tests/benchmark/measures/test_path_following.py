@@ -384,9 +384,13 @@ def test_a_path_ends_the_level_at_its_share() -> None:
     assert (measure.ends_level, measure.task_status) == (
         None, ("timeout", "reached 0.79 of the path")
     )  # fmt: skip
+    assert measure.details["time_done"] is None
+    assert measure.reasons["time_done"] == "the end of the path was not reached"
     go(world, measure, lambda t: (t, 0.0, 0.0), 0.2)
     assert measure.ends_level is not None
     assert measure.task_status == ("ok", None)
+    assert measure.details["time_done"] == pytest.approx(8.0, abs=EXACT)
+    assert "time_done" not in measure.reasons
 
 
 def test_a_body_too_far_from_the_path_is_lost() -> None:
@@ -402,6 +406,7 @@ def test_a_path_without_an_end_is_no_task() -> None:
     measure = following(world)
     go(world, measure, lambda t: (t, 50.0, 0.0), 11.0)
     assert (measure.ends_level, measure.task_status) == (None, None)
+    assert "time_done" not in measure.details
 
 
 def test_the_line_of_an_object_is_a_path_at_a_height() -> None:

@@ -134,6 +134,8 @@ class PathFollowing(Measure):
     distance over all steps [m].
 
     With ``u:endShare`` or ``u:maxDistance`` the measure is the task of the level (`task_status`).
+    With ``u:endShare`` there is a further detail: ``time_done``, the time after the start at which
+    the end was reached [s].
 
     Compatibility ``path-ise``: both ``iae`` and ``ise`` are the sum of :math:`d_1 \Delta t`.
     ``path-frame``: the position of ``from`` in W is added to the points of the path.
@@ -165,7 +167,10 @@ class PathFollowing(Measure):
         if spec.value != "last":
             self.unit = "m"  # type: ignore[misc]  # depends on u:value
         ise = {"ise": "m s"} if self._has_original_ise else {}
-        self.detail_units = {**DETAIL_UNITS, **STATISTIC_UNITS, **ise}  # type: ignore[misc]
+        done = {} if spec.end_share is None else {"time_done": "s"}
+        self.detail_units = {**DETAIL_UNITS, **STATISTIC_UNITS, **ise, **done}  # type: ignore[misc]
+        self._start_time = 0.0  # simulation time [s]
+        self._done_time: float | None = None  # time of the end of the path after the start [s]
         self._path: Polyline | None = None
         self._waypoints: list[int] = []  # the index of the point at which each segment begins
         self._error = ""  # what is wrong with the newest path
@@ -181,6 +186,7 @@ class PathFollowing(Measure):
     def start(self) -> None:
         """Begin with the newest path."""
         self._was_active = True
+        self._start_time = self._world.time
         self._last_sample = None
         if self._reference is not None:
             self._set_path(self._reference)
@@ -203,6 +209,8 @@ class PathFollowing(Measure):
             self._integrate(last_distance, distance, duration)
         self._last_sample = (self._world.step, distance)
         self._signal.add(distance, ())
+        if self._done_time is None and self._has_arrived:
+            self._done_time = self._world.time - self._start_time
         if self._loss is None and self._max_distance is not None and distance > self._max_distance:
             self._loss = f"{distance:.3g} m from the path at {self._world.time:g} s"
 
@@ -257,13 +265,17 @@ class PathFollowing(Measure):
                 "ise": self._iae if self._has_original_ise else self._ise,
                 "share": self._farthest_length / length if length > 0.0 else None,
             }
-        return {**parts, **self._signal.details}
+        done = {} if self._end_share is None else {"time_done": self._done_time}
+        return {**parts, **self._signal.details, **done}
 
     @property
     def reasons(self) -> dict[str, str]:
         """The reason why the path has no share."""
         is_point = self._path is not None and self._path.length == 0.0
-        return {"share": "the path has no length"} if is_point else {}
+        reasons = {"share": "the path has no length"} if is_point else {}
+        if self._end_share is not None and self._done_time is None:
+            reasons["time_done"] = "the end of the path was not reached"
+        return reasons
 
     @property
     def log_header(self) -> tuple[str, ...]:
