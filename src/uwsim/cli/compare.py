@@ -95,11 +95,12 @@ def compare(
     the scene are an error. It writes comparison.json, comparison.csv, comparison.html, plots as PNG
     and PDF. docs/statistics.md explains the numbers.
 
-    With --overview the results may be of several benchmarks. It writes overview.png, overview.pdf,
-    overview.csv and overview.json.
+    With --overview the results may be of several benchmarks. A folder with a result for each of
+    several benchmarks is one entry, which has the name of the folder. It writes overview.png,
+    overview.pdf, overview.csv and overview.json.
     """
     if options.overview:
-        _write_overview(expand_results(results), options, output, as_json=as_json)
+        _write_overview(results, options, output, as_json=as_json)
         return
     from ..analysis.comparison import compare_files, write_comparison
     from ..analysis.comparison.document import json_text
@@ -133,7 +134,7 @@ def compare(
 
 
 def _write_overview(
-    paths: list[Path], options: CompareOptions, output: ComparisonOutput, *, as_json: bool
+    paths: Sequence[Path], options: CompareOptions, output: ComparisonOutput, *, as_json: bool
 ) -> None:
     """Write the overview of results of several benchmarks; print it, or the ranks."""
     from ..analysis.overview import overview_json, rank_algorithms, read_tasks, write_overview
@@ -145,7 +146,9 @@ def _write_overview(
         raise BadSetting(
             "--overview shows success rates: leave out --measure, --baseline, --higher-is-better."
         )
-    tasks = read_tasks(paths, force=options.force)
+    result_paths = [(path, result) for path in paths for result in expand_results([path])]
+    folders = ["" if result == path else path.resolve().name for path, result in result_paths]
+    tasks = read_tasks([result for _, result in result_paths], folders=folders, force=options.force)
     clear_directory(output.out, overwrite=output.overwrite, pattern=OVERVIEW_FILES, folders=())
     for task in tasks:
         if task.experiment_differences:

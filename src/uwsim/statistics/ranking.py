@@ -201,6 +201,6 @@ def _shown_better(tasks: Sequence[Scores], totals: Scores, alpha: float) -> npt.
     is_better = np.zeros((n, n), dtype=np.bool_)
     for (i, j), p in zip(pairs, p_values, strict=True):
         if p is not None and p <= alpha:
-            better, worse = (i, j) if totals[i] > totals[j] else (j, i)
-            is_better[better, worse] = True
+            winner, loser = (i, j) if totals[i] > totals[j] else (j, i)
+            is_better[winner, loser] = True
     return is_better

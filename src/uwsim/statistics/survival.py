@@ -111,9 +111,9 @@ def success_curve(trials: Sequence[TrialTime], *, confidence: float = 0.95) -> S
 class LogRank:
     """The result of a log-rank test of two samples."""
 
-    observed: float
+    n_successes: int
     """The number of successes in the first sample."""
-    expected: float
+    expected_successes: float
     """The number of successes in the first sample that are expected if the samples are alike."""
     chi_square: float
     """The statistic, chi-square with one degree of freedom; 0 without a success."""
@@ -136,21 +136,21 @@ def log_rank(first: Sequence[TrialTime], second: Sequence[TrialTime]) -> LogRank
     """
     from scipy.special import chdtrc
 
-    observed, expected, variance = 0.0, 0.0, 0.0
+    n_successes, expectation, variance = 0, 0.0, 0.0
     for time in sorted({trial.time for trial in (*first, *second) if trial.has_succeeded}):
         n_first = sum(trial.time >= time for trial in first)
         n = n_first + sum(trial.time >= time for trial in second)
         first_events = sum(trial.has_succeeded and trial.time == time for trial in first)
         events = first_events + sum(trial.has_succeeded and trial.time == time for trial in second)
         share = n_first / n
-        observed += first_events
-        expected += events * share
+        n_successes += first_events
+        expectation += events * share
         if n > 1:
             variance += events * share * (1 - share) * (n - events) / (n - 1)
-    chi_square = (observed - expected) ** 2 / variance if variance > 0.0 else 0.0
+    chi_square = (n_successes - expectation) ** 2 / variance if variance > 0.0 else 0.0
     return LogRank(
-        observed=observed,
-        expected=expected,
+        n_successes=n_successes,
+        expected_successes=expectation,
         chi_square=chi_square,
         p=float(chdtrc(1, chi_square)),
     )
@@ -161,7 +161,7 @@ def paired_log_rank(first: Sequence[TrialTime], second: Sequence[TrialTime]) -> 
 
     Each trial of both samples has its log-rank score :math:`\delta - \hat\Lambda(t)`: 1 for a
     success or 0, minus the estimate of Nelson and Aalen of the cumulative hazard in the pooled
-    sample. The sum of the scores of the first sample is ``observed`` minus ``expected`` of
+    sample. The sum of the scores of the first sample is successes minus the expected ones of
     `log_rank`. If neither algorithm is better, the two trials of a pair can be exchanged. p is
     therefore that of the sign-flip test of the differences of their scores
     (`uwsim.statistics.sign_flip`). It needs no large sample, and uses the pairs (O'Brien and
@@ -173,9 +173,9 @@ def paired_log_rank(first: Sequence[TrialTime], second: Sequence[TrialTime]) -> 
     """
     if len(first) != len(second):
         raise ValueError(f"{len(first)} and {len(second)} trials: expected pairs")
-    pooled = (*first, *second)
-    times = np.array([trial.time for trial in pooled])
-    events = np.array([trial.has_succeeded for trial in pooled])
+    all_trials = (*first, *second)
+    times = np.array([trial.time for trial in all_trials])
+    events = np.array([trial.has_succeeded for trial in all_trials])
     hazards = np.array([1.0 / np.count_nonzero(times >= time) for time in times])
     cumulative = np.array([hazards[events & (times <= time)].sum() for time in times])
     scores = events - cumulative

@@ -121,6 +121,18 @@ def test_seeds_that_one_did_not_run_do_not_count() -> None:
     assert ranks.strengths == ()
 
 
+def test_a_folder_with_a_result_of_each_task_is_one_entry(paths: list[Path]) -> None:
+    """The last has an algorithm of another name; the folder of two results of one task has none."""
+    folders = ["ours", "both", "ours", "both", "ours"]
+    assert [[e.name for e in task.entries] for task in read_tasks(paths, folders=folders)] == [
+        ["ours", "both"], ["ours", "both"], ["ours"],
+    ]  # fmt: skip
+    tasks = read_tasks(paths, folders=["both", "both", "", "", ""])
+    assert [[e.name for e in task.entries] for task in tasks] == [
+        ["best", "worst"], ["best", "worst"], ["best"],
+    ]  # fmt: skip
+
+
 def test_other_experiments_of_one_benchmark_are_refused(paths: list[Path], tmp_path: Path) -> None:
     other = of_task("hover", make_result("third", outcomes(8, 8)))
     save(replace(other, run=replace(other.run, timestep=(0.01, "s"))), tmp_path / "x.result")

@@ -206,8 +206,8 @@ def _time_fields(times: LevelTimes | None) -> Fields:
         median = curve and curve.median
         fields |= {
             f"time_median_{name}": median and median.value,
-            f"time_median_{name}_low": _finite(median.low) if median else None,
-            f"time_median_{name}_high": _finite(median.high) if median else None,
+            f"time_median_{name}_low": _finite_limit(median.low) if median else None,
+            f"time_median_{name}_high": _finite_limit(median.high) if median else None,
         }
     return {
         **fields,
@@ -235,7 +235,7 @@ def _time_difference_fields(d: PairedDifference | None) -> Fields:
     }
 
 
-def _finite(limit: float | None) -> float | None:
+def _finite_limit(limit: float | None) -> float | None:
     return None if limit is None or math.isinf(limit) else limit
 
 

@@ -46,14 +46,20 @@ class OverviewTask:
         }
 
 
-def read_tasks(paths: Sequence[Path], *, force: bool = False) -> tuple[OverviewTask, ...]:
+def read_tasks(
+    paths: Sequence[Path], *, folders: Sequence[str] | None = None, force: bool = False
+) -> tuple[OverviewTask, ...]:
     """Read results of several benchmarks, and group them by benchmark.
 
-    An algorithm has the same name in all tasks. Two results of one algorithm in the same task have
-    their directory in their names.
+    A result is named by its algorithm. The results of a folder that has one result for each of
+    several benchmarks are named by the folder: they are the entry of one author, whose algorithms
+    may have other names in each task. Two results of one name in the same task have their directory
+    in their names.
 
     Args:
         paths: result directories, or their ``result.json``; at least two.
+        folders: the name of the folder of each result; empty for a result that is named by its
+            algorithm. None for all.
         force: True to accept results of one benchmark that are of different experiments.
 
     Raises:
@@ -61,14 +67,14 @@ def read_tasks(paths: Sequence[Path], *, force: bool = False) -> tuple[OverviewT
             in their scene, mode, timestep or settings.
     """
     groups: dict[str, list[Entry]] = {}
-    for entry in read_entries(paths):
+    for entry in _name_entries(read_entries(paths), folders or [""] * len(paths)):
         if not entry.result.columns_of_kind("status"):
             raise ResultError(f"{entry.source}: has no status; expected a result of a benchmark.")
         groups.setdefault(entry.result.inputs.title, []).append(entry)
     tasks = tuple(
         OverviewTask(
             name=name,
-            entries=_rename_entries(entries),
+            entries=_distinguish_entries(entries),
             experiment_differences=differences(entries),
         )
         for name, entries in groups.items()
@@ -114,9 +120,28 @@ def overview_rows(tasks: Sequence[OverviewTask]) -> tuple[OverviewRow, ...]:
     return tuple(rows)
 
 
-def _rename_entries(entries: Sequence[Entry]) -> tuple[Entry, ...]:
-    names = [algorithm_of(entry.result) or "no algorithm" for entry in entries]
+def _name_entries(entries: Sequence[Entry], folders: Sequence[str]) -> tuple[Entry, ...]:
+    """Name each result by its algorithm, or by a folder with one result of several benchmarks."""
+    titles: dict[str, list[str]] = {}
+    for entry, folder in zip(entries, folders, strict=True):
+        titles.setdefault(folder, []).append(entry.result.inputs.title)
     return tuple(
-        replace(entry, name=name if names.count(name) == 1 else f"{name} ({entry.source})")
-        for name, entry in zip(names, entries, strict=True)
+        replace(
+            entry,
+            name=folder
+            if folder and 1 < len(titles[folder]) == len(set(titles[folder]))
+            else algorithm_of(entry.result) or "no algorithm",
+        )
+        for entry, folder in zip(entries, folders, strict=True)
+    )
+
+
+def _distinguish_entries(entries: Sequence[Entry]) -> tuple[Entry, ...]:
+    """Add the directory to the names of results with equal names."""
+    names = [entry.name for entry in entries]
+    return tuple(
+        replace(entry, name=f"{entry.name} ({entry.source})")
+        if names.count(entry.name) > 1
+        else entry
+        for entry in entries
     )

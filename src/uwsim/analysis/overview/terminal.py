@@ -12,12 +12,13 @@ from .ranks import TaskRanks, rank_algorithms
 from .tasks import OverviewTask
 
 RANK_LEGEND = (
-    "rank is 1 plus the number of algorithms that are shown to be better (sign-flip tests of "
-    "paired seeds at 5 %, Holm over all pairs); algorithms with the same rank are tied. places is "
-    "the range of the place by success over 95 % of resamples of the seeds. See docs/statistics.md."
+    "The rank is 1 plus the number of algorithms that are shown to be better. It is by sign-flip "
+    "tests of paired seeds at 5 %, Holm over all pairs. Algorithms with the same rank are tied. "
+    "The column places has the range of the place by success in 95 % of resamples of the seeds. "
+    "See docs/statistics.md."
 )
 STRENGTH_LEGEND = (
-    " strength is that of Bradley and Terry, with its standard error; a game is a task."
+    " The strength is that of Bradley and Terry, with its standard error; a game is a task."
 )
 
 

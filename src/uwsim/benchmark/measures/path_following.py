@@ -167,8 +167,8 @@ class PathFollowing(Measure):
         if spec.value != "last":
             self.unit = "m"  # type: ignore[misc]  # depends on u:value
         ise = {"ise": "m s"} if self._has_original_ise else {}
-        done = {} if spec.end_share is None else {"time_done": "s"}
-        self.detail_units = {**DETAIL_UNITS, **STATISTIC_UNITS, **ise, **done}  # type: ignore[misc]
+        end_time = {} if spec.end_share is None else {"time_done": "s"}
+        self.detail_units = {**DETAIL_UNITS, **STATISTIC_UNITS, **ise, **end_time}  # type: ignore[misc]
         self._start_time = 0.0  # simulation time [s]
         self._done_time: float | None = None  # time of the end of the path after the start [s]
         self._path: Polyline | None = None
@@ -265,8 +265,8 @@ class PathFollowing(Measure):
                 "ise": self._iae if self._has_original_ise else self._ise,
                 "share": self._farthest_length / length if length > 0.0 else None,
             }
-        done = {} if self._end_share is None else {"time_done": self._done_time}
-        return {**parts, **self._signal.details, **done}
+        end_time = {} if self._end_share is None else {"time_done": self._done_time}
+        return {**parts, **self._signal.details, **end_time}
 
     @property
     def reasons(self) -> dict[str, str]:
