@@ -14,12 +14,13 @@ from contextlib import contextmanager
 from functools import partial
 from numbers import Integral, Real
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from .errors import BadSetting, Diagnostic, ErrorCollector, short_repr
 from .world import TIMESTEP
 
 if TYPE_CHECKING:
+    from .algorithms.policy import Policy
     from .analysis.comparison.model import Comparison
     from .bus import Algorithm
     from .editing import Benchmark, Scene
@@ -91,7 +92,7 @@ def bench(
     benchmark: str | Path | Benchmark,
     *,
     scene: str | Path | Scene | None = None,
-    algorithm: str | type[Algorithm] | None = None,
+    algorithm: str | type[Algorithm] | type[Policy] | None = None,
     seeds: Sequence[int] = (0,),
     levels: Mapping[str, Sequence[float]] | None = None,
     settings: Mapping[str, Setting] | None = None,
@@ -111,8 +112,8 @@ def bench(
         benchmark: a benchmark file, a bundled name, or a `Benchmark`.
         scene: the scene; None: the scene that the benchmark names. A `Benchmark` or a `Scene` is
             written as a file, which ``out`` keeps in its folder ``inputs``.
-        algorithm: a name (``uwsim list algorithms``), ``module:Class``, or a class; a class runs in
-            the process of the simulation, as with ``--in-process``.
+        algorithm: a name (``uwsim list algorithms``), ``module:Class``, or a class of algorithms or
+            policies; a class runs in the process of the simulation, as with ``--in-process``.
         seeds: the seeds of the repeats; consecutive, such as ``range(6)``.
         levels: the levels of the sweep to run, as numbers: ``{"fog": [0.0, 1 / 3]}``.
         settings: values to change, as ``--set`` names them; ``algorithm.kp`` is a parameter.
@@ -195,7 +196,7 @@ def _execute_request(
 
 
 def _name_and_class(
-    algorithm: str | type[Algorithm] | None,
+    algorithm: str | type[Algorithm] | type[Policy] | None,
 ) -> tuple[str | None, type[Algorithm] | None]:
     """Return the name of an algorithm, and the class if one is given; raise BadSetting."""
     if algorithm is None or isinstance(algorithm, str):
@@ -205,7 +206,8 @@ def _name_and_class(
             f"algorithm={short_repr(algorithm)}: expected a name, 'module:Class', or a class, not "
             "an object."
         )
-    return f"{algorithm.__module__}:{algorithm.__qualname__}", algorithm
+    algorithm_class = cast("type[Algorithm]", algorithm)  # the plan makes one of a policy
+    return f"{algorithm.__module__}:{algorithm.__qualname__}", algorithm_class
 
 
 @contextmanager

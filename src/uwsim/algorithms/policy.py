@@ -29,7 +29,6 @@ from typing import Any, Protocol, cast
 import numpy as np
 import numpy.typing as npt
 
-from ..base.geometry import Array
 from ..bus import Algorithm, Node
 from ..errors import UnknownName
 from ..messages import Empty, Float64MultiArray, Image, MultiArrayLayout, array_of
@@ -46,7 +45,7 @@ IMAGES = "images"
 class Policy(Protocol):
     """A function from an observation to an action."""
 
-    def __call__(self, observation: Any) -> Array:
+    def __call__(self, observation: Any, /) -> npt.ArrayLike:
         """Return the action for an observation: numbers from -1 to 1, (m,)."""
 
 
