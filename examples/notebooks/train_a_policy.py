@@ -199,10 +199,11 @@ for name, algorithm in (("hand", LinearPolicy), ("trained", TrainedPolicy), ("p"
 print(uwsim.compare(FOLDER / "trained.result", FOLDER / "p.result"))
 
 # %% [markdown]
-# The same on the command line, with the policy in `policy.npz` of the current folder:
+# The same on the command line:
 #
 # ```console
 # $ cd examples/learning
+# $ python ppo.py uwsim/StationKeeping-v0    # writes policy.npz, which policy.py:Policy reads
 # $ uwsim bench station-keeping --algorithm policy.py:Policy --repeat 6 --out trained.result
 # $ uwsim bench station-keeping --algorithm position-p --repeat 6 --out p.result
 # $ uwsim compare trained.result p.result
@@ -217,7 +218,7 @@ uwsim.Replay(FOLDER / "trained.result")
 
 # %% [markdown]
 # ```console
-# $ uwsim replay trained.result --trial 0 -o policy.webp    # a film
+# $ uwsim replay trained.result --trial 0 --until 10 -o policy.webp    # a film
 # $ uwsim bench station-keeping --algorithm policy.py:Policy --view --speed 1
 # ```
 #

@@ -25,6 +25,7 @@ from links import broken_links, network_sources
 SITE_FOLDER = Path(__file__).resolve().parent
 ROOT = SITE_FOLDER.parent.parent
 PACKAGE = ROOT / "src" / "uwsim"
+NOTEBOOKS = ROOT / "examples" / "notebooks"
 LINK = re.compile(r"(!?\[[^\]]*\])\(([^)#\s]+)(#[^)\s]*)?\)")
 """A link or an image of Markdown: its text, its target, its anchor."""
 SHIM = "https://unpkg.com/iframe-worker/shim"
@@ -58,8 +59,8 @@ def main() -> None:
 def copy_pages(pages: Path) -> Navigation:
     """Rewrite the links of the copied pages; return the navigation of ``index.md``.
 
-    A linked Markdown file from outside ``docs/`` becomes a page of its own; a link to any other
-    file of the repository becomes its path.
+    A linked Markdown file from outside ``docs/`` becomes a page of its own. A link to a notebook
+    leads to its page, and one to any other file of the repository becomes its path.
     """
     extra_pages: dict[Path, str] = {}
     for page in sorted(pages.glob("*.md")):
@@ -113,6 +114,8 @@ def rewrite_links(text: str, folder: Path, extra_pages: dict[Path, str]) -> str:
                 "repository.md" if name == "README.md" else name
             )  # README.md would become index.html
             extra_pages.setdefault(path, name)
+        elif path.parent == NOTEBOOKS:
+            name = f"{path.stem}.md"
         else:
             return f"{label.strip('![]')} (`{path.relative_to(ROOT)}`)"
         return f"{label}({name}{anchor or ''})"
@@ -122,7 +125,7 @@ def rewrite_links(text: str, folder: Path, extra_pages: dict[Path, str]) -> str:
 
 def notebook_pages(pages: Path) -> list[str]:
     """Execute each notebook, and write its output as a page."""
-    sources = sorted((ROOT / "examples" / "notebooks").glob("*.py"))
+    sources = sorted(NOTEBOOKS.glob("*.py"))
     if not sources:
         return []
     import jupytext
