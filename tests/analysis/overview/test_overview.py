@@ -89,6 +89,16 @@ def test_a_row_is_a_task_or_a_value_of_its_outer_parameter(
     assert "worst" not in rows[2].rates
 
 
+def test_a_parameter_with_one_value_is_left_out() -> None:
+    result = grasping_result()
+    foggy = replace(result, rows=tuple(r for r in result.rows if r[2] == 0.5), missing_values=())
+    entry = Entry(name="grasp", source="x", result=foggy, sha256="0" * 64)
+    rows = overview_rows([OverviewTask(name="grasp", entries=(entry,))])
+    assert [(r.parameter, r.outer_level, r.levels) for r in rows] == [
+        ("current [m/s]", "", ("0.0", "0.1", "0.2", "0.3"))
+    ]
+
+
 def test_ranks_are_over_the_tasks_of_all(tasks: tuple[OverviewTask, ...]) -> None:
     ranks = rank_algorithms(tasks)
     assert ranks is not None
@@ -139,6 +149,12 @@ def test_other_experiments_of_one_benchmark_are_refused(paths: list[Path], tmp_p
     with pytest.raises(ResultError, match=r"The results of hover .* timestep: .* Use --force"):
         read_tasks([*paths, tmp_path / "x.result"])
     assert read_tasks([*paths, tmp_path / "x.result"], force=True)[0].experiment_differences
+
+
+def test_results_without_rows_are_refused(paths: list[Path], tmp_path: Path) -> None:
+    save(replace(make_result("a", outcomes(8)), rows=(), missing_values=()), tmp_path / "x.result")
+    with pytest.raises(ResultError, match=r"x.result: has no rows; expected"):
+        read_tasks([*paths, tmp_path / "x.result"])
 
 
 def test_the_files_have_the_numbers(tasks: tuple[OverviewTask, ...]) -> None:

@@ -149,9 +149,10 @@ def times_plot(comparison: Comparison) -> Figure | None:
     The levels of a seed are not independent, so intervals are drawn for a single level only.
     """
     entries = _common_entries(comparison)
-    limit = max((pair.times.limit for pair in comparison.pairs if pair.times), default=None)
-    if limit is None:
+    limits = [pair.times.limit for pair in comparison.pairs if pair.times]
+    if not limits:
         return None
+    limit = max(limits) or 1.0
     with styled_figure((SIZE[0] + 1.6, 2.8)) as figure:
         axes = figure.subplots()
         for i, entry in enumerate(entries):

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from ...errors import ResultError
 from ...results.per_level import round_level, success_rates
-from ...results.result import Column
 from ...results.table import exact_decimals, number_text
 from ...statistics import Rate
 from ..comparison import Entry, differences, read_entries
@@ -27,12 +26,6 @@ class OverviewTask:
     """The results, with names that are unique in the task."""
     experiment_differences: tuple[str, ...] = ()
     """The differences between the results that make them incomparable."""
-
-    @property
-    def level_columns(self) -> tuple[Column, ...]:
-        """The swept parameters, outermost first, without that of the updater ``none``."""
-        columns = self.entries[0].result.columns_of_kind("level")
-        return tuple(column for column in columns if column.name != "none")
 
     def rates(self) -> dict[str, dict[Level, Rate]]:
         """Return the success rate at each level, by the name of the algorithm."""
@@ -63,13 +56,15 @@ def read_tasks(
         force: True to accept results of one benchmark that are of different experiments.
 
     Raises:
-        ResultError: a result cannot be read or has no status, or results of one benchmark differ
-            in their scene, mode, timestep or settings.
+        ResultError: a result cannot be read, or has no status or no rows, or results of one
+            benchmark differ in their scene, mode, timestep or settings.
     """
     groups: dict[str, list[Entry]] = {}
     for entry in _name_entries(read_entries(paths), folders or [""] * len(paths)):
         if not entry.result.columns_of_kind("status"):
             raise ResultError(f"{entry.source}: has no status; expected a result of a benchmark.")
+        if not entry.result.rows:
+            raise ResultError(f"{entry.source}: has no rows; expected one or more finished trials.")
         groups.setdefault(entry.result.inputs.title, []).append(entry)
     tasks = tuple(
         OverviewTask(
@@ -94,23 +89,31 @@ def algorithm_names(tasks: Sequence[OverviewTask]) -> tuple[str, ...]:
 
 
 def overview_rows(tasks: Sequence[OverviewTask]) -> tuple[OverviewRow, ...]:
-    """Return the rows of the heat map: one for each task and value of its outer parameters."""
+    """Return the rows of the heat map: one for each task and value of its outer parameters.
+
+    Parameters with one value in all results of a task are left out.
+    """
     rows: list[OverviewRow] = []
     for task in tasks:
         rates = task.rates()
-        columns = task.level_columns
+        columns = task.entries[0].result.columns_of_kind("level")
         all_levels = sorted({level for levels in rates.values() for level in levels})
-        for outer_level in dict.fromkeys(level[:-1] for level in all_levels):
-            levels = [level for level in all_levels if level[:-1] == outer_level]
-            decimals = exact_decimals([level[-1] for level in levels if level])
+        indices = [i for i in range(len(columns)) if len({level[i] for level in all_levels}) > 1]
+        indices = indices or [i for i, column in enumerate(columns) if column.name != "none"][-1:]
+        outer_levels: dict[Level, list[Level]] = {}
+        for level in all_levels:
+            outer_levels.setdefault(tuple(level[i] for i in indices[:-1]), []).append(level)
+        for outer_level, levels in outer_levels.items():
+            values = [level[indices[-1]] for level in levels] if indices else []
+            decimals = exact_decimals(values)
             rows.append(
                 OverviewRow(
                     task=task.name,
-                    parameter=level_label(columns[-1]) if columns else "",
-                    outer_level=levels_text(columns[:-1], outer_level) if columns[:-1] else "",
-                    levels=tuple(
-                        number_text(level[-1], decimals) if columns else "" for level in levels
-                    ),
+                    parameter=level_label(columns[indices[-1]]) if indices else "",
+                    outer_level=levels_text([columns[i] for i in indices[:-1]], outer_level)
+                    if outer_level
+                    else "",
+                    levels=tuple(number_text(value, decimals) for value in values) or ("",),
                     rates={
                         name: tuple(level_rates.get(level) for level in levels)
                         for name, level_rates in rates.items()

@@ -44,9 +44,10 @@ def overview_csv(tasks: Sequence[OverviewTask]) -> str:
     header = ("task", "algorithm", "level", "n", "n_ok", "rate", "rate_low", "rate_high")
     writer.writerow(header)
     for task in tasks:
+        columns = task.entries[0].result.columns_of_kind("level")
         for name, rates in task.rates().items():
             for level, rate in rates.items():
-                level_name = levels_text(task.level_columns, level) if task.level_columns else ""
+                level_name = levels_text(columns, level)
                 numbers = (rate.n, rate.successes, rate.value, rate.low, rate.high)
                 writer.writerow((task.name, name, level_name, *numbers))
     return stream.getvalue()
