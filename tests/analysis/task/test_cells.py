@@ -100,7 +100,9 @@ def test_the_legend_has_the_phases_of_all_panels(monkeypatch: pytest.MonkeyPatch
 def test_the_figures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
     first = draw_task_figures(grasping_result(), tmp_path / "a")
     again = draw_task_figures(grasping_result(), tmp_path / "b")
-    assert [path.name for path in first] == ["success-map.png", "success-rates.png", "phases.png"]
+    assert [path.name for path in first] == [
+        "success-map.png", "success-rates.png", "success-times.png", "phases.png",
+    ]  # fmt: skip
     for one, other in zip(first, again, strict=True):
         assert one.read_bytes() == other.read_bytes()
         with Image.open(one) as image:
@@ -114,6 +116,8 @@ def test_the_section_of_the_report(tmp_path: Path) -> None:
     assert section.lead == f"{n_ok} of 48 episodes succeeded."
     assert section.rows[0].success == "4 of 4"
     assert section.rows[0].limits == "40 to 100 %"
+    assert (section.rows[0].time, section.rows[0].time_limits) == ("50.0", "0.0 to –")
     assert section.rows[-1].failures == "4 not found"
+    assert section.rows[-1].time == "–"
     assert section.rows[-1].medians == ("–", "–")
     assert [name for name, _ in section.median_heads] == ["time", "slip"]
