@@ -31,7 +31,7 @@ from ..runs.control_run import control_run_of, needs_control_run
 from ..runs.execute import Execution
 from ..runs.executors.executor import Executor, OnLevel, run_all
 from ..runs.prepare import prepare_run
-from ..runs.run import Run
+from ..runs.run import Run, StoredPair
 from ..verify.recorded_plan import FileOverrides, check_inputs, plan_of
 
 MAX_LISTED = 8
@@ -99,15 +99,16 @@ def _read_run(folder: Path, overrides: FileOverrides) -> Run:
     return replace(run, inputs=inputs, renderer=info.renderer or run.renderer)
 
 
-def check_campaign(campaign: Campaign) -> None:
-    """Check that every trial is finished.
+def read_trials(campaign: Campaign) -> list[list[StoredPair]]:
+    """Return the stored trials of each run, which are all finished.
 
     Raises:
         ResultError: trials are not finished; or one belongs to another run.
     """
     texts = []
-    for run in campaign.runs:
-        unfinished_trials = run.unfinished_trials()
+    stored_trials = [run.read_trials() for run in campaign.runs]
+    for run, pairs in zip(campaign.runs, stored_trials, strict=True):
+        unfinished_trials = [trial for trial, content in pairs if content.end is None]
         if unfinished_trials:
             n, name = len(run.plan.trials()), run.plan.algorithm.name
             numbers = ", ".join(str(trial.index) for trial in unfinished_trials[:MAX_LISTED])
@@ -118,6 +119,7 @@ def check_campaign(campaign: Campaign) -> None:
             f"{campaign.directory}: trials are not finished: {'; '.join(texts)}. "
             f"{_hint(campaign.directory)}"
         )
+    return stored_trials
 
 
 def _hint(directory: Path) -> str:
@@ -146,7 +148,7 @@ def merge(
         BadSetting: another run is writing into the folder.
         ResultError: trials are not finished.
     """
-    check_campaign(campaign)
+    stored_trials = read_trials(campaign)
     with lock_directory(campaign.directory):
         names = [run.out.name for run in campaign.runs]
         discard_drafts(campaign.directory, FILE_NAMES, (*FOLDERS, *names))
@@ -159,7 +161,7 @@ def merge(
             for run in campaign.runs:
                 if needs_control_run(run.plan) and run.out / CONTROL_FOLDER != control_run.out:
                     shutil.copytree(control_run.out, run.out / CONTROL_FOLDER, dirs_exist_ok=True)
-        return tuple(run.write() for run in campaign.runs)
+        return tuple(map(Run.write, campaign.runs, stored_trials))
 
 
 def save_provenances(execution: Execution, campaign: Campaign) -> None:

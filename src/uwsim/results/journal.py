@@ -92,7 +92,7 @@ def read(directory: Path, index: int, head: Record, seal: Seal | None = None) ->
         ResultError: the head in the file differs: the file belongs to another run.
     """
     path = path_of(directory, index)
-    stored_head, content = read_any(path, seal)
+    stored_head, content = read_any(path, seal, head)
     if stored_head is not None and stored_head != head:
         raise ResultError(
             f"{path}: belongs to another run: {_other_run(stored_head, head)}. "
@@ -121,8 +121,15 @@ def _values(level: Sequence[float]) -> str:
     return ", ".join(map(repr, level)) or "None"
 
 
-def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, StoredTrial]:
+def read_any(
+    path: Path, seal: Seal | None = None, expected_head: Record | None = None
+) -> tuple[Record | None, StoredTrial]:
     """Read a journal of any run: its head and its content, up to the first sealed line.
+
+    Args:
+        path: the path of the journal.
+        seal: the seal of the rows; None if they are not sealed.
+        expected_head: a valid head; one that is equal is not checked again.
 
     Raises:
         ResultError: a line is not a line of a journal.
@@ -139,7 +146,8 @@ def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, Store
                     break  # the run goes on, or its key was lost when the machine went down
                 record = json.loads(_unseal(record[SEALED_KEY], seal), parse_constant=_reject_nan)
             kind = _kind(record, is_first=number == 1)
-            KINDS[kind](record[kind], kind)
+            if kind != "unit" or record[kind] != expected_head:
+                KINDS[kind](record[kind], kind)
         except (ValueError, RecursionError):
             break  # the disk was full, or the machine went down
         except ResultError as error:

@@ -7,7 +7,7 @@ in the order of the plan. The bytes are the same with every executor, resumed or
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -33,6 +33,9 @@ from .run_description import describe_plan
 from .trial.status import ended_its_process, was_stopped
 from .trial.trial_recorder import TrialRecorder
 from .uwsim_files import save_dat, save_data
+
+StoredPair = tuple[Trial, journal.StoredTrial]
+"""A trial and its stored rows."""
 
 
 @dataclass(kw_only=True)
@@ -93,8 +96,7 @@ class Run:
         truncated where a call into its algorithm did not return; in a finished trial that is final.
         """
         name = self.plan.algorithm.name
-        for trial in self.trials():
-            content = self.read_trial(trial)
+        for trial, content in self.read_trials():
             is_truncated = ended_its_process if content.end is not None else was_stopped
             for n, row in enumerate(content.rows):
                 if is_truncated(name, row.missing.get("total")):
@@ -110,8 +112,7 @@ class Run:
         plan = self.plan
         is_piloted = getattr(plan.algorithm.cls, "IS_PILOTED", False) and not plan.inputs
         is_free = plan.algorithm.client is not None and plan.algorithm.client.sync == "none"
-        for trial in self.trials():
-            content = self.read_trial(trial)
+        for trial, content in self.read_trials():
             if content.end is None or _has_motion(self.out, trial):
                 continue
             reasons = [row.missing.get("total") for row in content.rows]
@@ -132,11 +133,11 @@ class Run:
 
     def unfinished_trials(self) -> list[Trial]:
         """Return the trials whose end is not on disk."""
-        return [trial for trial in self.trials() if self.read_trial(trial).end is None]
+        return [trial for trial, content in self.read_trials() if content.end is None]
 
     def n_finished(self) -> int:
         """Count the levels of `trials` that are on disk."""
-        return sum(self.n_rows(trial) for trial in self.trials())
+        return sum(len(content.rows) for _, content in self.read_trials())
 
     def n_rows(self, trial: Trial) -> int:
         """Count the levels of one trial that are on disk."""
@@ -144,19 +145,24 @@ class Run:
 
     def head(self, trial: Trial) -> Record:
         """Return the first line of a trial's journal; trials with equal heads have equal rows."""
+        return _head(trial, self._description())
+
+    def _description(self) -> Record:
+        """Return what the heads of all trials have in common."""
         return {
             "inputs": _round_trip(self.inputs.as_dict()),
             "run": _round_trip(self.info.as_dict()),
-            "seed": trial.seed,
-            "levels": [[value for _, value in level.values] for level in trial.levels],
         }
 
-    def write(self) -> Result:
+    def write(self, stored_trials: Sequence[StoredPair] | None = None) -> Result:
         """Collect the rows on disk and write result, summary of repeats and logs.
 
         The rows of a shard are collected only: ``uwsim merge`` writes those of all shards.
+
+        Args:
+            stored_trials: the rows, if they are read already (`read_trials`).
         """
-        stored_trials = [(trial, self.read_trial(trial)) for trial in self.trials()]
+        stored_trials = self.read_trials() if stored_trials is None else stored_trials
         result, logs, self.simulated_s = collect(self.plan, self.inputs, self.info, stored_trials)
         if self.chosen_trials is not None:
             return result
@@ -183,15 +189,28 @@ class Run:
         Raises:
             ResultError: the rows belong to another run, or to levels that are not in the trial.
         """
+        return self._read_trial(trial, self._description())
+
+    def read_trials(self) -> list[StoredPair]:
+        """Return each trial that this process runs, with its stored rows; see `read_trial`."""
+        description = self._description()
+        return [(trial, self._read_trial(trial, description)) for trial in self.trials()]
+
+    def _read_trial(self, trial: Trial, description: Record) -> journal.StoredTrial:
         path = journal.path_of(self.out, trial.index)
         if not path.exists():
             return journal.EMPTY_JOURNAL
-        content = journal.read(self.out, trial.index, self.head(trial), self.seal)
+        content = journal.read(self.out, trial.index, _head(trial, description), self.seal)
         if message := journal.level_difference(content, trial.values):
             raise ResultError(
                 f"{path}: {message}. Remove this file: --resume then runs its trial again."
             )
         return content
+
+
+def _head(trial: Trial, description: Record) -> Record:
+    levels = [[value for _, value in level.values] for level in trial.levels]
+    return {**description, "seed": trial.seed, "levels": levels}
 
 
 def _has_motion(out: Path, trial: Trial) -> bool:

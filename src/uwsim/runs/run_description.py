@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from importlib.metadata import version
 
 import numpy as np
@@ -26,7 +27,13 @@ def describe_plan(plan: Plan, renderer: str) -> RunInfo:
         compatibility=tuple(sorted(plan.compatibility)),
         timestep=(plan.timestep, "s"),
         version=__version__,
-        physics=f"mujoco {version('mujoco')}",
+        physics=physics_engine(),
         renderer=renderer,
         numpy=np.__version__,
     )
+
+
+@cache
+def physics_engine() -> str:
+    """Return the name and version of the physics engine, which takes milliseconds to find."""
+    return f"mujoco {version('mujoco')}"
