@@ -33,13 +33,13 @@ def ids(path: Path) -> str:
 
 
 def typed(page: Path) -> list[tuple[str, ...]]:
-    """Every command of a page's consoles, without what is set for it (``PYTHONPATH=.``)."""
+    """Every command of a page's consoles, without variables (``PYTHONPATH=.``) and ``> FILE``."""
     found = []
     for command in read_commands(page.read_text()):
         words = command.words
         while "=" in words[0]:
             words = words[1:]
-        found.append(words)
+        found.append(words[: words.index(">")] if ">" in words else words)
     return found
 
 

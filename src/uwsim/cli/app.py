@@ -77,6 +77,15 @@ COMMANDS: dict[str, Command] = {
             "uwsim compare --baseline esm.result ic.result ecc.result --measure corners",
         ),
     ),
+    "container": Command(
+        module="campaigns.container",
+        function="container",
+        summary="Print the definition of an image with uwsim, for clusters.",
+        examples=(
+            "uwsim container apptainer > image.def",
+            "uwsim container oci --extra export > Containerfile",
+        ),
+    ),
     "copy": Command(
         module="copy",
         function="copy",
@@ -141,6 +150,15 @@ COMMANDS: dict[str, Command] = {
         function="list_names",
         summary="List scenes, benchmarks, algorithms and parts that have names.",
         examples=("uwsim list", "uwsim list benchmarks"),
+    ),
+    "kubernetes": Command(
+        module="campaigns.kubernetes",
+        function="kubernetes",
+        summary="Print jobs that run a benchmark on a Kubernetes cluster.",
+        examples=(
+            "uwsim kubernetes --tasks 500 --image uwsim --volume-claim shared "
+            "-- bench currents --repeat 100 --out /campaign/pi.result > jobs.yaml",
+        ),
     ),
     "manoeuvres": Command(
         module="vehicles.manoeuvres",
@@ -215,6 +233,17 @@ COMMANDS: dict[str, Command] = {
         examples=(
             "uwsim scenario dive.mcap --scene tank.xml --images /camera/image_raw --target box",
             "uwsim scenario dive.csv --mapping dive.toml --scene tank.xml -o tank-scenario",
+        ),
+    ),
+    "slurm": Command(
+        module="campaigns.slurm",
+        function="slurm",
+        summary="Print a script that runs a benchmark on a Slurm cluster.",
+        examples=(
+            "uwsim slurm --tasks 500 -- bench currents --repeat 100 --out /shared/pi.result "
+            "> job.sh",
+            "uwsim slurm --parallel 100 --time 2:00:00 --container image.sif "
+            "-- bench my.xml --repeat 100 --out /shared/my.result > job.sh",
         ),
     ),
     "verify": Command(
