@@ -116,6 +116,9 @@ def test_two_shards_of_two_algorithms_with_a_control_run_are_merged(
     command += ["--mode", "independent", "--level", "fog=0", "--level", "fog=0.4"]
     assert main([*command, "--out", "whole"]) == 0
     assert main([*command, "--out", "shared", "--shard", "1/2"]) == 0
+    capsys.readouterr()
+    assert main([*command, "--seed", "5", "--out", "shared", "--shard", "2/2"]) == 2
+    assert "seed is 5 now, was 0" in capsys.readouterr().err
     assert main(["merge", "shared"]) == 2
     error = capsys.readouterr().err
     assert "trials are not finished" in error

@@ -15,6 +15,8 @@ from lxml import etree
 
 from uwsim.assets.find import find
 from uwsim.envs import RowVectorEnv, make_env
+from uwsim.envs.steppers import StepperName
+from uwsim.envs.vector_env import make_vector_env
 from uwsim.errors import BadSetting
 
 
@@ -248,3 +250,30 @@ def test_the_engine_names_the_stepper_that_takes_factors() -> None:
     with pytest.raises(BadSetting, match="It is a factor of stepper='rows'"):
         env.reset(seed=1, options={"level": {"drag": 1.1}})
     env.close()
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+@pytest.mark.parametrize("stepper", ["rows", "engine"])
+def test_the_next_episodes_of_rows_keep_the_ranges_of_their_last_reset(
+    tmp_path: Path, stepper: StepperName, mode: str
+) -> None:
+    benchmark = tmp_path / "short.xml"
+    text = (DATA / "benchmarks" / "station-keeping.xml").read_text()
+    benchmark.write_text(text.replace("<interval>30</interval>", "<interval>0.2</interval>"))
+    rows = make_vector_env(benchmark, 3, stepper=stepper, autoreset_mode=mode)
+    rows.reset(seed=1)
+    ranges = {"level": {"current": (0.11, 0.12)}}
+    rows.reset(seed=5, options={**ranges, "reset_mask": np.array([True, False, True])})
+    levels: list[list[float]] = []
+    for _ in range(18):
+        infos = rows.step(np.zeros((3, 8), np.float32))[4]
+        if "level" in infos:
+            levels.append(infos["level"]["current"].tolist())
+    assert len(levels) >= 3
+    for first, second, third in levels:
+        assert 0.11 <= first <= 0.12
+        assert 0.11 <= third <= 0.12
+        assert not 0.11 <= second <= 0.12
+    rows.reset(seed=1)
+    assert all(not 0.11 <= value <= 0.12 for value in rows.reset()[1]["level"]["current"])
+    rows.close()

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import BadSetting
+from ..results import journal
 from ..results.directory import FILE_NAMES, FOLDERS, check_resume
 from ..runs.control_run import control_run_of, needs_control_run
 from ..runs.execute import Execution, Progress, begin_runs
@@ -129,6 +130,8 @@ def execute_shard(
     execution = replace(execution, command=drop_shard(execution.command))
     out = execution.runs[0].out if not results else execution.runs[0].out.parent
     with begin_runs(execution, shared_directory(out, results)):
+        for run in runs:
+            _check_same_run(run)
         total = sum(len(trial.levels) for run in runs for trial in run.trials())
         n_finished = sum(run.n_finished() for run in runs)
         title = f"{execution.title}, shard {shard}"
@@ -141,6 +144,15 @@ def execute_shard(
     raise_if_process_ended(runs[:n], outcome.results[:n])
     raise_if_all_failed(runs[:n], outcome.results[:n])
     return runs
+
+
+def _check_same_run(run: Run) -> None:
+    """Raise ResultError if the first trial on disk, of any shard, belongs to another run."""
+    paths = sorted((run.out / journal.FOLDER).glob("*.jsonl"))
+    trials = run.plan.trials()
+    index = int(paths[0].stem) if paths else len(trials)
+    if index < len(trials):
+        run.read_trial(trials[index])
 
 
 def drop_shard(words: Sequence[str]) -> list[str]:

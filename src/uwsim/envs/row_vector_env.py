@@ -65,6 +65,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._row_seeds: list[int | None] = [None] * num_envs  # of generators not yet created
         self._generators: list[np.random.Generator | None] = [None] * num_envs
+        self._choices: list[Mapping[str, Value]] = [{}] * num_envs  # of the last reset of a row
         self._rows_to_reset = np.ones(num_envs, np.bool_)
 
     @property
@@ -82,7 +83,8 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
 
         Args:
             seed: the seed of the first row; the next row has the next seed; or one for each row.
-            options: ``{"level": {...}}`` as for `BenchmarkEnv`, and ``reset_mask`` (n,).
+            options: ``{"level": {...}}`` as for `BenchmarkEnv`, and ``reset_mask`` (n,). Automatic
+                resets keep the level.
         """
         options = dict(options or {})
         mask = np.array(options.pop("reset_mask", np.ones(self.num_envs)), dtype=np.bool_)
@@ -95,6 +97,8 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
             else [None if seed is None else seed + i for i in range(self.num_envs)]
         )
         self._begin(mask, seeds, choices)
+        for i in np.flatnonzero(mask).tolist():
+            self._choices[i] = choices
         return self._episodes.arrays.observations.copy(), self._infos(mask)
 
     def step(self, actions: npt.ArrayLike) -> tuple[Array, Array, Flags, Flags, dict[str, Any]]:
@@ -110,7 +114,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
         if resets.any():
             if self._mode is AutoresetMode.DISABLED:
                 raise BadSetting("An episode is over; call reset(options={'reset_mask': ...}).")
-            self._begin(resets, [None] * self.num_envs, {})
+            self._begin_again(resets)
             infos = self._infos(resets)
         self._episodes.step(values, ~resets)
         arrays = self._episodes.arrays
@@ -121,7 +125,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
             infos |= self._results(self._rows_to_reset, observations)
             if self._mode is AutoresetMode.SAME_STEP:
                 finished_rows = self._rows_to_reset
-                self._begin(finished_rows, [None] * self.num_envs, {})
+                self._begin_again(finished_rows)
                 observations = arrays.observations.copy()
                 infos |= self._infos(finished_rows)
         return observations, rewards, terminated, truncated, infos
@@ -144,6 +148,15 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
             row_seeds.append(seed)
         self._episodes.begin(mask, row_seeds, choices)
         self._rows_to_reset = self._rows_to_reset & ~mask
+
+    def _begin_again(self, mask: Flags) -> None:
+        """Begin the next episodes of some rows, with the levels of their last reset."""
+        rest = mask.copy()
+        while rest.any():
+            choices = self._choices[int(np.argmax(rest))]
+            rows = rest & np.array([other is choices for other in self._choices])
+            self._begin(rows, [None] * self.num_envs, choices)
+            rest &= ~rows
 
     def _generator(self, row: int) -> np.random.Generator:
         """Return the generator of a row's seeds, which is created when the first is drawn."""

@@ -5,18 +5,33 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Unpack
+from typing import Any, Unpack
 
+import numpy as np
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from ..editing import Benchmark, Scene
 from ..errors import BadSetting
+from ..messages.observation import Observation
 from .benchmark_env import BenchmarkEnv
 from .make import EnvOptions
 from .row_task import RowsRefused
 from .row_vector_env import RowVectorEnv
 from .steppers import NO_IMAGES, StepperName, check_stepper
 from .task import EnvironmentOptions, make_task
+
+
+class VectorRow(BenchmarkEnv):
+    """A row of a vector, whose automatic resets keep the options of the last reset by the user."""
+
+    kept_options: dict[str, Any] | None = None
+    """The options of the last reset by the user."""
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Begin an episode, by default with `kept_options`."""
+        return super().reset(seed=seed, options=options or self.kept_options)
 
 
 class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
@@ -55,7 +70,7 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
         if render_mode == "human" and num_envs > 1:
             raise BadSetting("render_mode='human' shows one environment; expected num_envs=1.")
         make = partial(
-            BenchmarkEnv,
+            VectorRow,
             benchmark,
             scene=scene,
             observation=observation,
@@ -73,6 +88,27 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
             real_time_factor=real_time_factor,
         )
         super().__init__([make] * num_envs, autoreset_mode=autoreset_mode)
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begin episodes of all rows, or of those of ``options["reset_mask"]``.
+
+        Args:
+            seed: the seed of the first row; the next row has the next seed; or one for each row.
+            options: ``{"level": {...}}`` as for `BenchmarkEnv`, and ``reset_mask`` (n,). Automatic
+                resets keep the level.
+        """
+        kept_options = {k: v for k, v in (options or {}).items() if k != "reset_mask"} or None
+        mask = (options or {}).get("reset_mask", np.ones(self.num_envs, np.bool_))
+        for row, is_reset in zip(self.envs, np.asarray(mask).tolist(), strict=False):
+            if is_reset:
+                row.unwrapped.kept_options = kept_options
+        result: tuple[Any, dict[str, Any]] = super().reset(seed=seed, options=options)
+        return result
 
     @property
     def stepper(self) -> str:
