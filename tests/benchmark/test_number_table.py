@@ -7,9 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.fakes import FakeWorld
 from uwsim.benchmark.recorded_truth import RecordedTruthSpec
 from uwsim.benchmark.reference_path import ReferencePathSpec, path_message
 from uwsim.errors import UwsimError
+
+NO_WORLD = FakeWorld({})
 
 
 def benchmark(folder: Path, text: str) -> str:
@@ -19,7 +22,7 @@ def benchmark(folder: Path, text: str) -> str:
 
 def test_the_points_of_a_file_are_its_columns_in_any_order(tmp_path: Path) -> None:
     file = benchmark(tmp_path, "z [m],note,x [m],y\n4,,1,2\n\n5,image7.png,1.5,-2e0\n")
-    points = ReferencePathSpec(file="t.csv").read(file)
+    points = ReferencePathSpec(file="t.csv").read(file, NO_WORLD)
     np.testing.assert_array_equal(points, [[1.0, 2.0, 4.0], [1.5, -2.0, 5.0]])
     message = path_message(points)
     assert [pose.pose.position.y for pose in message.poses] == [2.0, -2.0]
@@ -46,21 +49,22 @@ def test_the_points_of_a_file_are_its_columns_in_any_order(tmp_path: Path) -> No
 def test_a_file_that_is_no_path_says_where(text: str, said: str, tmp_path: Path) -> None:
     file = benchmark(tmp_path, text)
     with pytest.raises(UwsimError, match=said):
-        ReferencePathSpec(file="t.csv").read(file)
+        ReferencePathSpec(file="t.csv").read(file, NO_WORLD)
 
 
 def test_a_file_is_searched_in_the_folder_of_the_benchmark_only(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
     file = benchmark(tmp_path, "x,y,z\n1,2,3\n")
     with pytest.raises(UwsimError, match=r"u\.csv.*is not in the folder"):
-        ReferencePathSpec(file="u.csv").read(file)
+        ReferencePathSpec(file="u.csv").read(file, NO_WORLD)
 
 
 @pytest.mark.parametrize(
     ("spec", "said"),
     [
-        (ReferencePathSpec(), "either <u:points> or <u:file>"),
-        (ReferencePathSpec(points=(1.0, 2.0, 3.0), file="t.csv"), "either"),
+        (ReferencePathSpec(), "needs one of <u:points>, <u:file> and <u:object>"),
+        (ReferencePathSpec(points=(1.0, 2.0, 3.0), file="t.csv"), "needs one of"),
+        (ReferencePathSpec(points=(1.0, 2.0, 3.0), height=1.0), "is that above an <u:object>"),
         (ReferencePathSpec(points=(1.0, 2.0)), "has 2 numbers; expected x y z"),
         (ReferencePathSpec(points=(1.0, 2.0, 1e7)), "beyond 1e+06 m"),
     ],

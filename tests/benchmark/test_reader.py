@@ -577,13 +577,15 @@ def test_a_bundled_benchmark_without_extensions_is_one_of_the_original(
         if parent.tag == "sceneUpdater" and len(parent) == 0:
             one_level = etree.SubElement(parent, "repeat")  # for an updater that is an extension
             etree.SubElement(one_level, "iterations").text = "1"
-            etree.SubElement(one_level, "interval").text = "1"
+            etree.SubElement(one_level, "interval").text = "5"
     for node in tree.iter("*"):
         for attribute in [key for key in node.attrib if str(key).startswith("{urn:uwsim:1}")]:
             del node.attrib[attribute]
     etree.cleanup_namespaces(tree)
     file.write_bytes(etree.tostring(tree, doctype='<!DOCTYPE benchmark SYSTEM "benchmark.dtd">'))
-    assert check_benchmark(file, is_strict=True)[0] == []
+    diagnostics = [str(one) for one in check_benchmark(file, is_strict=True)[0]]
+    no_path = "<pathFollowing> without <topic> and <u:path> has no path"  # an extension gave it
+    assert [one for one in diagnostics if no_path not in one] == []
 
 
 def test_the_bundled_benchmarks_bind() -> None:

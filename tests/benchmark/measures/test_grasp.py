@@ -232,7 +232,7 @@ def test_what_lifts_and_what_is_lifted_and_what_it_lies_on_differ(
 
 def test_every_wrong_name_of_a_grasp_is_reported_with_its_line(tmp_path: Path) -> None:
     right = benchmark_file("grasp").read_text(encoding="utf-8")
-    wrong = right.replace("<target>blackbox<", "<target>blackbx<").replace(
+    wrong = right.replace("<target>blackbox<", "<target>blackbx<", 1).replace(
         "<phases>", "<ground>terrrain</ground><phases>"
     )
     file = tmp_path / "wrong.xml"
