@@ -14,8 +14,9 @@ from PIL import Image
 
 from uwsim.base.geometry import Pose
 from uwsim.datasets import DatasetRequest, Range, make_dataset
+from uwsim.datasets.image_files import FILE_ENDS, read_colour, read_values
 from uwsim.datasets.shards import shard_path
-from uwsim.errors import BadSetting, SeveralErrors, UnknownName, UwsimError
+from uwsim.errors import BadSetting, ResultError, SeveralErrors, UnknownName, UwsimError
 
 SCENE = "visibility-scene"
 
@@ -159,6 +160,46 @@ def test_two_workers_and_an_interruption_change_no_bytes(folder: Path, tmp_path:
     (request.out / "labels.jsonl").unlink()
     assert make_dataset(replace(request, workers=1)).n_rendered == 2
     assert files_of(request.out) == files_of(folder)
+
+
+@pytest.mark.parametrize("kind", ["images", "depth"])
+def test_damaged_images_are_rendered_again(folder: Path, tmp_path: Path, kind: str) -> None:
+    request = request_in(tmp_path)
+    shutil.copytree(folder, request.out)
+    content = (request.out / f"{kind}/000002.png").read_bytes()
+    (request.out / f"{kind}/000002.png").write_bytes(content[:-4])
+    (request.out / "instances/000003.png").unlink()
+    assert make_dataset(request).n_rendered == 2
+    assert files_of(request.out) == files_of(folder)
+
+
+def test_an_image_with_other_bytes_is_named_with_the_remedy(folder: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "set"
+    shutil.copytree(folder, copy)
+    record = records_of(folder)[0]
+    for kind in ("images", "depth"):
+        file = copy / record["files"][kind]
+        file.write_bytes(bytes(100) + FILE_ENDS[".png"])
+        read = read_colour if kind == "images" else read_values
+        with pytest.raises(ResultError, match=r"000000\.png: is damaged\. Remove the file"):
+            read(file)
+
+
+def test_fewer_images_leave_the_others_unlisted(folder: Path, tmp_path: Path) -> None:
+    request = request_in(tmp_path, n_images=4)
+    shutil.copytree(folder, request.out)
+    assert make_dataset(request).n_unlisted == 2
+    assert len(records_of(request.out)) == 4
+    assert make_dataset(replace(request, n_images=6)).n_rendered == 0
+    assert files_of(request.out) == files_of(folder)
+
+
+@pytest.mark.parametrize("split", [(float("nan"), 0.0, 1.0), (0.0, float("nan"), 1.0)])
+def test_shares_that_are_no_numbers_are_refused(
+    tmp_path: Path, split: tuple[float, float, float]
+) -> None:
+    with pytest.raises(BadSetting, match="--split"):
+        request_in(tmp_path, split=split).check()
 
 
 def test_more_images_keep_the_earlier_ones_and_their_splits(folder: Path, tmp_path: Path) -> None:

@@ -139,7 +139,10 @@ def test_all_formats_of_one_data_set_agree(tmp_path: Path) -> None:
         assert [len(x) for x in lines] == [
             sum(i["box"] is not None for i in r["instances"]) for r in records
         ]
-    assert "0: " in (out / "data.yaml").read_text()
+    description = (out / "data.yaml").read_text()
+    assert "0: " in description
+    assert "path" not in description  # the lists are beside it, and name images as ./images/...
+    assert (out / "train.txt").read_text().startswith("./images/")
     listed = [line for name in ("train", "val", "test")
               for line in (out / f"{name}.txt").read_text().splitlines()]  # fmt: skip
     assert sorted(listed) == [f"./images/{i:06d}.png" for i in range(8)]

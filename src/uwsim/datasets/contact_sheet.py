@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..analysis.plots.save import save_plot
 from ..analysis.plots.style import INK, PALETTE, styled_figure
-from .image_files import read_values
+from .image_files import read_colour, read_values
 from .sensor_record import sensor_of
 
 N_COLUMNS = 6
@@ -87,8 +87,7 @@ def choose_records(records: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def _draw_panels(directory: Path, record: dict[str, Any], classes: Sequence[str]) -> list[Colours]:
     """Return the panels of an image, in the order of `ROWS`."""
-    image = np.asarray(cv2.imread(str(directory / record["files"]["images"])))[..., ::-1]
-    image = np.ascontiguousarray(image)
+    image = read_colour(directory / record["files"]["images"])
     if "sonar" in record:  # echoes of the floor are dark beside those of things
         image = np.rint(255.0 * np.sqrt(image / 255.0)).astype(np.uint8)
     mask = read_values(directory / record["files"]["instances"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -44,6 +45,8 @@ FOLDERS = ("images", "depth", "instances", "classes")
 """The folders of colour images, depths, and masks."""
 SUFFIXES = {"png": ".png", "jpeg": ".jpg"}
 """The suffix of colour images by encoding."""
+FILE_ENDS = {".png": b"IEND\xaeB`\x82", ".jpg": b"\xff\xd9"}
+"""The last bytes of a complete image by suffix."""
 
 
 def encode_colour(pixels: npt.NDArray[np.uint8], encoding: str) -> bytes:
@@ -72,15 +75,38 @@ def file_paths(index: int, encoding: str, folders: Sequence[str] = FOLDERS) -> d
     }
 
 
+def is_complete(path: Path) -> bool:
+    """Return whether an image is there with its last bytes; the others are not read."""
+    end = FILE_ENDS[path.suffix]
+    try:
+        with path.open("rb") as file:
+            file.seek(-len(end), os.SEEK_END)
+            return file.read() == end
+    except OSError:
+        return False
+
+
 def write_file(path: Path, content: bytes) -> None:
     """Write a file; a file that an interruption leaves incomplete is written again."""
     with name_file_in_errors(path):
         path.write_bytes(content)
 
 
+def read_colour(path: Path) -> npt.NDArray[np.uint8]:
+    """Return a colour image, (h, w, 3); raise ResultError if damaged."""
+    pixels = cv2.imread(str(path))
+    if pixels is None:
+        raise _make_error(path)
+    return np.ascontiguousarray(np.asarray(pixels, dtype=np.uint8)[..., ::-1])
+
+
 def read_values(path: Path) -> npt.NDArray[np.uint16]:
     """Return the numbers of a mask or a depth image, (h, w); raise ResultError if damaged."""
     values = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     if values is None or values.ndim != 2:
-        raise ResultError(f"{path}: is no image of the data set.")
+        raise _make_error(path)
     return np.asarray(values, dtype=np.uint16)
+
+
+def _make_error(path: Path) -> ResultError:
+    return ResultError(f"{path}: is damaged. Remove the file, and make the data set again.")

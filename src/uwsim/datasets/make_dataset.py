@@ -32,12 +32,11 @@ from .camera import make_camera
 from .card import write_card
 from .contact_sheet import write_contact_sheet
 from .formats import write_formats
-from .image_files import FOLDERS, SONAR_FOLDERS
 from .instances import find_instances
 from .keypoints import KEYPOINTS_FILE, to_document
 from .request import DatasetRequest
 from .scene_draw import DatasetSources, find_scene_seed
-from .shards import FOLDER, draw_indices, draw_numbers, is_finished, read_records
+from .shards import FOLDER, draw_indices, draw_numbers, image_folders, is_finished, read_records
 from .sonar_images.dataset_sonar import make_sonar
 from .splits import find_split
 from .statistics_plot import write_statistics
@@ -73,6 +72,8 @@ class Dataset:
     """The number of images of each split."""
     n_instances: int
     """The number of labelled instances with visible pixels."""
+    n_unlisted: int
+    """The number of images of an earlier call with more of them, which are not in the labels."""
 
 
 def make_dataset(request: DatasetRequest, progress: Progress | None = None) -> Dataset:
@@ -107,16 +108,16 @@ def make_dataset(request: DatasetRequest, progress: Progress | None = None) -> D
         "scene_file": Path(sources.scene.path).name,
     }
     _check_directory(request, description)
-    _check_disk(request)
+    missing_draws = [n for n in draw_numbers(request) if not is_finished(request, n)]
+    n_pending = sum(len(draw_indices(request, number)) for number in missing_draws)
+    _check_disk(request, n_pending)
     with lock_directory(request.out):
-        for folder in (*(FOLDERS if request.sonar is None else SONAR_FOLDERS), FOLDER):
+        for folder in (*image_folders(request), FOLDER):
             (request.out / folder).mkdir(exist_ok=True)
         write_text(request.out / DESCRIPTION, json.dumps(description, indent=1) + "\n")
         if request.keypoints:
             text = json.dumps(to_document(request.keypoints), indent=1)
             write_text(request.out / KEYPOINTS_FILE, text + "\n")
-        missing_draws = [n for n in draw_numbers(request) if not is_finished(request, n)]
-        n_pending = sum(len(draw_indices(request, number)) for number in missing_draws)
         if missing_draws:
             n_done = request.n_images - n_pending
             show = (
@@ -156,6 +157,10 @@ def _finish(
         splits=dict(sorted(Counter(record["split"] for record in records).items())),
         n_instances=sum(
             instance["visible_pixels"] > 0 for record in records for instance in record["instances"]
+        ),
+        n_unlisted=sum(
+            path.stem.isdecimal() and int(path.stem) >= request.n_images
+            for path in (request.out / "images").iterdir()
         ),
     )
 
@@ -264,13 +269,10 @@ def _find_differences(stored_description: dict[str, Any], description: dict[str,
     return [*differences, *names_of_make]
 
 
-def _check_disk(request: DatasetRequest) -> None:
+def _check_disk(request: DatasetRequest, n_missing: int) -> None:
     """Raise BadSetting if the estimated size of the missing images exceeds the free space."""
     existing_folder = next(
         p for p in (request.out.absolute(), *request.out.absolute().parents) if p.exists()
-    )
-    n_missing = sum(
-        len(draw_indices(request, n)) for n in draw_numbers(request) if not is_finished(request, n)
     )
     size = estimate_bytes(request, n_missing)
     free_bytes = shutil.disk_usage(existing_folder).free

@@ -162,7 +162,7 @@ class DatasetRequest:
                         f"{option} {short_repr(name)}: expected one of {', '.join(known_names)}."
                         f"{did_you_mean(name, known_names)}"
                     )
-        if min(self.split) < 0.0 or abs(sum(self.split) - 1.0) > 1e-6:
+        if not (min(self.split) >= 0.0 and abs(sum(self.split) - 1.0) <= 1e-6):  # also NaN
             yield f"--split is {self.split}; expected three shares with the sum 1, as 0.8,0.1,0.1."
         if self.is_mounted and self.camera is None and self.sonar is None:
             yield "--mounted needs --camera NAME or --sonar NAME, which is on its vehicle."

@@ -1,7 +1,8 @@
 """Shards: the records of the images of one scene draw, in one file.
 
 A shard is written when all images of its draw are on disk, so that a shard with all its lines is
-finished. An interrupted data set repeats at most one draw for each worker.
+finished. An interrupted data set repeats at most one draw for each worker. A draw of which an image
+is missing or incomplete is rendered again.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Any
 
 from ..errors import ResultError
 from ..results.atomic_file import write_text
+from .image_files import FOLDERS, SONAR_FOLDERS, file_paths, is_complete
 from .request import DatasetRequest
 
 FOLDER = "records"
@@ -30,6 +32,11 @@ def draw_indices(request: DatasetRequest, number: int) -> range:
     return range(start, min(start + request.views_per_scene, request.n_images))
 
 
+def image_folders(request: DatasetRequest) -> tuple[str, ...]:
+    """Return the folders of images and masks of a request."""
+    return FOLDERS if request.sonar is None else SONAR_FOLDERS
+
+
 def shard_path(directory: Path, number: int) -> Path:
     """Return the path of a shard."""
     return directory / FOLDER / f"{number:05d}.jsonl"
@@ -41,12 +48,17 @@ def write_shard(directory: Path, number: int, lines: list[str]) -> None:
 
 
 def is_finished(request: DatasetRequest, number: int) -> bool:
-    """Return whether the shard of a scene draw has all its records."""
+    """Return whether the shard of a scene draw has all its records, and they have their images."""
     try:
         lines = shard_path(request.out, number).read_bytes().count(b"\n")
     except OSError:
         return False
-    return lines >= len(draw_indices(request, number))
+    indices = draw_indices(request, number)
+    return lines >= len(indices) and all(
+        is_complete(request.out / path)
+        for index in indices
+        for path in file_paths(index, request.encoding, image_folders(request)).values()
+    )
 
 
 def read_records(request: DatasetRequest) -> Iterator[dict[str, Any]]:

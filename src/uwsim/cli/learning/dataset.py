@@ -277,6 +277,11 @@ def dataset(
         f"{result.n_images} images ({parts}) with {result.n_instances} labelled instances; "
         f"{result.n_rendered} rendered now; written: {result.directory}"
     )
+    if result.n_unlisted:
+        print(
+            f"{result.directory}/images has {result.n_unlisted} more, from a greater -n. No file "
+            f"of labels lists them; give -n {result.n_images + result.n_unlisted} to have them."
+        )
 
 
 def show_progress(

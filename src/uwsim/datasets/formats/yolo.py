@@ -1,7 +1,8 @@
 """YOLO: a text file for each image in ``labels``, beside ``images``, and ``data.yaml``.
 
 A line has the class from 0, and the centre and the size of the visible box over the image's width
-and height. ``train.txt`` and the other lists of the plain format name the images.
+and height. ``train.txt`` and the other lists of the plain format name the images. ``data.yaml`` has
+no ``path``: its files are then beside it, whereas ``path: .`` is the current folder of the reader.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ def write_yolo(
     names = "".join(f"  {number}: {json.dumps(name)}\n" for number, name in enumerate(classes))
     write_text(
         request.out / "data.yaml",
-        f"path: .\ntrain: train.txt\nval: val.txt\ntest: test.txt\nnames:\n{names}",
+        f"train: train.txt\nval: val.txt\ntest: test.txt\nnames:\n{names}",
     )
 
 
