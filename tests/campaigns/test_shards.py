@@ -106,6 +106,16 @@ def test_a_shard_is_read_and_dropped_from_a_command() -> None:
     assert drop_shard(["bench", "--shard=3/10", "a.xml"]) == ["bench", "a.xml"]
 
 
+@pytest.mark.parametrize("option", [["--client", "mine"], ["--ardupilot"], ["--resume"]])
+def test_options_that_shards_exclude_are_refused(
+    option: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["bench", "visibility", "--shard", "1/2", "--out", str(tmp_path / "out")]
+    assert main([*command, *option]) == 2
+    assert "--shard" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.slow
 def test_two_shards_of_two_algorithms_with_a_control_run_are_merged(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -140,6 +140,8 @@ class BenchOptions:
             raise BadSetting(
                 "--shard continues what is in --out; leave out --resume and --overwrite."
             )
+        if self.client_options.client is not None or self.ardupilot or self.px4:
+            raise BadSetting("--shard: a program outside takes part in a run of one process only.")
         return read_shard(self.shard)
 
     def requests(
