@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import PurePath
 from typing import ClassVar
 
 from ..base.deprecation import deprecated_name
@@ -49,6 +50,16 @@ class RunInfo(StoredRecord):
     """The number of finished trials, and the number of all trials; ``units`` in the file."""
     notes: tuple[str, ...] | None = None
     """Notes for a reader of the result."""
+
+    @property
+    def algorithm_label(self) -> str:
+        """The name of the algorithm without the folders of its file: ``policy.py:Policy``.
+
+        It is empty without an algorithm.
+        """
+        name = self.algorithm or ""
+        file, _, class_name = name.rpartition(":")
+        return f"{PurePath(file).name}:{class_name}" if file.endswith(".py") else name
 
     @property
     def is_finished(self) -> bool:

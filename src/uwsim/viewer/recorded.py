@@ -135,7 +135,7 @@ class RecordedTrial:
         return RecordedTrial(
             directory=directory,
             index=index,
-            title=f"{name}, {run.algorithm}, seed {head['seed']}",
+            title=f"{name}, {run.algorithm_label}, seed {head['seed']}",
             seed=int(head["seed"]),
             scene=scene_of(result, directory, sources),
             timestep=run.timestep[0] if run.timestep else TIMESTEP,

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from rich.console import Console
 from scipy import stats
 
@@ -28,6 +29,7 @@ from uwsim.analysis.comparison import (
     Comparison,
     compare,
     differences,
+    read_entries,
     remarks,
     shared_column,
     write_comparison,
@@ -42,6 +44,7 @@ from uwsim.analysis.comparison.terminal import renderables
 from uwsim.errors import ResultError, UnknownName
 from uwsim.results.inputs import Inputs
 from uwsim.results.result import Result
+from uwsim.results.result_file import save
 from uwsim.results.run_info import RunInfo
 from uwsim.statistics import Interval, mean_interval, rate, repeats_needed, sign_flip
 
@@ -483,6 +486,27 @@ def test_it_is_reported_whether_both_saw_the_same_images() -> None:
     )
 
 
+def test_streams_without_images_are_not_the_same_images() -> None:
+    a, b = visibility_result("a", seeds=(1, 2)), visibility_result("b", seeds=(1, 2))
+    empty = [replace(stream, frames=0, sha256="e3" * 32) for stream in a.image_streams]
+    none = [replace(result, image_streams=tuple(empty)) for result in (a, b)]
+    assert "images" not in said(compared(*none))
+    one = [replace(r, image_streams=(empty[0], r.image_streams[1])) for r in (a, b)]
+    assert "byte for byte (1 stream)" in said(compared(*one))
+    assert "the same bytes in 0 of 2 image streams" in said(compared(a, none[1]))
+
+
+def test_a_class_is_named_without_the_folders_of_its_file(tmp_path: Path) -> None:
+    paths = []
+    for name in ("/home/me/learning/policy.py:Policy", "/home/me/old/policy.py:Policy", "esm"):
+        result = noisy_result(name, 1.0, n=3, salt=1)
+        folder = tmp_path / f"{len(paths)}.result"
+        folder.mkdir()
+        paths.append(save(result, folder / "result.json"))
+    names = [entry.name for entry in read_entries(paths)]
+    assert names == ["policy.py:Policy (0.result)", "policy.py:Policy (1.result)", "esm"]
+
+
 # ---------------------------------------------------------------------------- what is written
 
 
@@ -723,6 +747,20 @@ def test_of_three_results_those_levels_are_drawn_that_two_have() -> None:
     low, high = curves_plot(compared(*three)).axes[0].get_xlim()
     assert low < 0.0
     assert 1.0 < high < 2.0
+
+
+def test_bars_with_long_names_have_room_for_all_texts() -> None:
+    names = [f"a_folder_of_a_policy_{i}.py:PolicyWithAVeryLongName{i}" for i in range(4)]
+    results = [sweep(name, {0.5: 1.0 + i}) for i, name in enumerate(names)]
+    comparison = compared(*results)
+    for figure in (curves_plot(comparison), differences_plot(comparison)):
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        axes = figure.axes[0]
+        for text in (axes.xaxis.label, *axes.get_yticklabels()):
+            box = text.get_window_extent(canvas.get_renderer())
+            assert 0.0 <= box.x0 < box.x1 <= figure.bbox.x1
+        assert axes.bbox.width > 0.25 * figure.bbox.width
 
 
 def test_bars_without_any_value_say_so() -> None:

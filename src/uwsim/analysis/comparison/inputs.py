@@ -125,10 +125,10 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
         sources = [entry.source for entry in entries if entry.check_note == subject]
         texts.append(f"{' and '.join(sources)}: {subject}")
     texts += [line for line in _file_differences(entries, "plugins", "plugin") if "absent" in line]
-    for name in dict.fromkeys(algorithm_of(entry.result) for entry in entries):
-        entries_of_algorithm = [entry for entry in entries if algorithm_of(entry.result) == name]
+    for name in dict.fromkeys(entry.result.run.algorithm or "" for entry in entries):
+        same_entries = [entry for entry in entries if (entry.result.run.algorithm or "") == name]
         texts += _shorten_list(
-            _file_differences(entries_of_algorithm, ALGORITHM, f"source of {name},"), "sources"
+            _file_differences(same_entries, ALGORITHM, f"source of {name},"), "sources"
         )
     return tuple(texts)
 
@@ -138,12 +138,14 @@ def count_same_images(first_result: Result, second_result: Result) -> tuple[int,
 
     Returns:
         None if the results have no stream in common: no camera was read, or the seeds differ.
+        Streams without images in both do not count.
     """
-    hashes = {(s.seed, s.level, s.topic): s.sha256 for s in first_result.image_streams}
+    streams = {(s.seed, s.level, s.topic): s for s in first_result.image_streams}
     matches = [
-        hashes[key] == stream.sha256
+        first_stream.sha256 == stream.sha256
         for stream in second_result.image_streams
-        if (key := (stream.seed, stream.level, stream.topic)) in hashes
+        if (first_stream := streams.get((stream.seed, stream.level, stream.topic)))
+        and max(first_stream.frames, stream.frames) > 0
     ]
     return (len(matches), sum(matches)) if matches else None
 

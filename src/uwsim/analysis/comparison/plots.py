@@ -37,6 +37,7 @@ from ..plots import (
     written_unit,
 )
 from ..plots.drawing import write_no_data
+from ..plots.style import MAX_NAME_LENGTH, shorten_name
 from ..task import draw_success_curve, success_times, task_measure
 from .inputs import Entry
 from .model import Comparison, LevelStatistics, PairComparison
@@ -66,7 +67,7 @@ def curves_plot(comparison: Comparison) -> Figure:
     entries, column = _common_entries(comparison), comparison.column
     if _has_one_level(comparison):
         bars = [
-            (entry.name, level_interval.interval, True)
+            (shorten_name(entry.name), level_interval.interval, True)
             for entry in entries
             for level_interval in intervals_of(entry.result, column.name)
         ]
@@ -84,7 +85,7 @@ def differences_plot(comparison: Comparison) -> Figure:
     label = f"difference [{written_unit(column.unit)}]" if column.unit else "difference"
     if _has_one_level(comparison):
         bars = [
-            (_pair_name(pair), stats.value.difference, _is_significant(stats))
+            (_bar_name(pair), stats.value.difference, _is_significant(stats))
             for pair in pairs
             for stats in pair.levels
         ]
@@ -119,7 +120,11 @@ def success_plot(comparison: Comparison) -> Figure | None:
         return None
     if _has_one_level(comparison):
         bars = [
-            (entry.name, Interval(n=r.n, mean=r.value, std=None, low=r.low, high=r.high), True)
+            (
+                shorten_name(entry.name),
+                Interval(n=r.n, mean=r.value, std=None, low=r.low, high=r.high),
+                True,
+            )
             for entry, rates in zip(entries, entry_rates, strict=True)
             for _, r in rates
         ]
@@ -290,6 +295,14 @@ def _is_significant(stats: LevelStatistics) -> bool:
 
 def _pair_name(pair: PairComparison) -> str:
     return f"{pair.second.name} − {pair.first.name}"
+
+
+def _bar_name(pair: PairComparison) -> str:
+    """Return the name of a pair beside its bar, on two lines if it is long."""
+    name = _pair_name(pair)
+    if len(name) <= MAX_NAME_LENGTH:
+        return name
+    return f"{shorten_name(pair.second.name)} −\n{shorten_name(pair.first.name)}"
 
 
 def _outer_level_text(entry: Entry, outer_level: tuple[float, ...]) -> str:

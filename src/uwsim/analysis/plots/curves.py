@@ -116,8 +116,8 @@ def label_of(result: Result, column: Column) -> str:
 
 
 def algorithm_of(result: Result) -> str:
-    """Return the name of the algorithm of a result; empty without one."""
-    return result.run.algorithm or ""
+    """Return the name of the algorithm of a result, without folders; empty without one."""
+    return result.run.algorithm_label
 
 
 def repeats_of(result: Result) -> list[tuple[object, ...]]:

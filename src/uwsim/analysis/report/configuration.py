@@ -10,7 +10,7 @@ from ...results.code_paths import names_text
 from ...results.command import bench_words
 from ...results.refused_lines import refused_lines
 from ...results.result import ERROR_FLOOR_PREFIX, Result
-from ..plots import algorithm_of, repeats_of, written_unit
+from ..plots import repeats_of, written_unit
 
 FACTS = {
     "S": "contrast S of the patch: standard deviation, no noise, fog 0",
@@ -55,7 +55,7 @@ def command(result: Result, provenance: Mapping[str, object]) -> str:
     typed_words = provenance.get("command")
     if isinstance(typed_words, list) and typed_words:
         return shlex.join(["uwsim", *_omit_irrelevant_options([str(w) for w in typed_words])])
-    algorithm = algorithm_of(result)
+    algorithm = result.run.algorithm
     words = bench_words(
         result.run,
         result.inputs,
