@@ -18,9 +18,12 @@ from gymnasium.utils.env_checker import check_env
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
+import uwsim
 from tests.envs.test_benchmark_env import shorten
+from uwsim.base.geometry import Intrinsics
 from uwsim.envs import make_env
 from uwsim.errors import BadSetting, UnknownName
+from uwsim.simulation.views import chase_pose, chase_radius, find_focus
 from uwsim.viewer.live.view import HEADER
 
 STATION = "uwsim.envs:uwsim/StationKeeping-v0"
@@ -64,6 +67,25 @@ def test_the_chase_camera_stays_behind_the_vehicle() -> None:
     assert offset[0] < -0.5
     assert abs(offset[1]) < 0.3
     env.close()
+
+
+def test_the_chase_camera_of_a_vehicle_near_objects_is_in_the_water() -> None:
+    with uwsim.load("docking-scene") as simulation:  # a dock beside a vehicle 1.5 m deep
+        focus, vehicle = find_focus(simulation), simulation.world.bodies.find("bluerov2")
+        position = vehicle.world_from_body.position
+        pose = chase_pose(position, focus.bow_direction, chase_radius(simulation, focus))
+        assert position[2] + 0.5 < pose.position[2] < -0.2
+        hidden = {p.id for p in simulation.world.scenery.parts if p.vehicle is None}
+        images = [
+            simulation.world.scenery.render_view(
+                pose, Intrinsics.from_fovy(160, 120, 0.9), targets={"ids"}, hidden_ids=ids
+            ).ids
+            for ids in (frozenset[int](), frozenset(hidden))
+        ]
+    all_parts, vehicle_alone = images
+    is_vehicle = vehicle_alone > 0
+    assert is_vehicle.sum() > 100
+    assert (all_parts == vehicle_alone)[is_vehicle].all()
 
 
 def test_a_camera_is_rendered_as_by_the_simulation() -> None:

@@ -27,6 +27,7 @@ from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from ..simulation.views import (
     chase_pose,
+    chase_radius,
     find_focus,
     orbit_view,
     top_view,
@@ -75,7 +76,7 @@ class FrameSource:
         self._scene, self._is_view, self._size = scene, self._camera not in cameras, size
         self._view_size = size or (scene.sim_params.resw, scene.sim_params.resh)
         self._simulation: Simulation | None = None
-        self._radius = 0.0  # of the focus [m]
+        self._radius = 0.0  # of the chase [m]
         # of the vehicle at the first image; without a vehicle, of the centre of the focus
         self._start = np.zeros(3)
         self._initial_pose = Pose.identity()  # of the camera at the first image
@@ -118,7 +119,7 @@ class FrameSource:
         is_first = simulation is not self._simulation
         if is_first:
             focus = find_focus(simulation)
-            self._simulation, self._radius = simulation, focus.radius
+            self._simulation, self._radius = simulation, chase_radius(simulation, focus)
             self._start, self._bow_direction = focus.centre, focus.bow_direction
             if self._camera == "orbit":
                 self._initial_pose = orbit_view(simulation, self._view_size).world_from_camera

@@ -39,6 +39,8 @@ CHASE_DISTANCE = 3.0
 """The distance of the chase camera behind the vehicle, as a multiple of the radius of the focus."""
 CHASE_HEIGHT = 1.1
 """The height of the chase camera above the vehicle, as a multiple of the same radius."""
+MAX_CHASE_RISE = 0.8
+"""The greatest height of the chase camera above the vehicle, as a share of the depth [1]."""
 MAX_CHASE_RADIUS = 2.0
 """The greatest radius of the focus for the chase camera [m]."""
 VISIBILITY_IMAGE_SIZE: Size = (96, 72)
@@ -157,12 +159,29 @@ def chase_pose(position: Array, bow_direction: Array, radius: float) -> Pose:
     Args:
         position: the position of the vehicle in W, (3,) [m].
         bow_direction: the horizontal unit vector towards its bow in W, (3,).
-        radius: the radius of the focus, which counts as 2 m at most [m].
+        radius: the radius of the view, of `chase_radius` [m].
     """
-    scale = min(radius, MAX_CHASE_RADIUS)
-    eye = position - CHASE_DISTANCE * scale * bow_direction + CHASE_HEIGHT * scale * UP
-    view = position + 0.5 * scale * bow_direction - eye
+    eye = position - CHASE_DISTANCE * radius * bow_direction + CHASE_HEIGHT * radius * UP
+    view = position + 0.5 * radius * bow_direction - eye
     return Pose(eye, camera_axes(view / np.linalg.norm(view), UP))
+
+
+def chase_radius(simulation: Simulation, focus: Focus) -> float:
+    """Return the radius for `chase_pose`: that of the focus, 2 m at most [m].
+
+    It is less if the camera of a vehicle in the water would be above the water, unless it were then
+    less than the radius of the vehicle.
+    """
+    radius, world = min(focus.radius, MAX_CHASE_RADIUS), simulation.world
+    vehicle_corners = [
+        world.scenery.corners(part) for part in world.scenery.parts if part.vehicle == 0
+    ]
+    if not vehicle_corners:
+        return radius
+    position = world.bodies.find(world.vehicles.names[0]).world_from_body.position
+    depth = world.model.scene.ocean_state.ocean_surface_height - float(position[2])
+    limit = MAX_CHASE_RISE * depth / CHASE_HEIGHT
+    return min(radius, limit) if limit >= _radius(np.concatenate(vehicle_corners)) else radius
 
 
 def find_focus(simulation: Simulation) -> Focus:

@@ -11,7 +11,7 @@ import numpy as np
 from ...base.geometry import Array, Intrinsics, Pose, rotation_z
 from ...base.numerics.linear import product
 from ...errors import BadSetting, did_you_mean
-from ...simulation.views import Size, chase_pose, find_focus, orbit_view
+from ...simulation.views import Size, chase_pose, chase_radius, find_focus, orbit_view
 from .trial_scene import TrialScene, frame_at
 
 ViewKind = Literal["orbit", "chase", "fixed", "camera"]
@@ -63,7 +63,7 @@ class CameraPath:
         """The intrinsics of the camera."""
         self._initial_pose = view.world_from_camera
         focus = find_focus(scene.simulation)
-        self._radius = focus.radius
+        self._radius = chase_radius(scene.simulation, focus)
         self._vehicle_path = smooth_vehicle_path(scene, focus.centre, focus.bow_direction)
         self._centre = focus.centre
         self._start_position = self._vehicle_path.positions[frame_at(scene.track, start)[0]]
