@@ -12,6 +12,9 @@ import pytest
 import uwsim
 from uwsim.assets.bundled import benchmark_file
 from uwsim.cli import main
+from uwsim.datasets.export.minari import find_arguments, make_specification
+from uwsim.runs.planning.make_plan import make_plan
+from uwsim.runs.planning.plan_request import PlanRequest
 
 POLICY = """
 class Policy:
@@ -46,11 +49,12 @@ def test_minari_has_the_steps_of_the_environment_to_the_bit(
     assert main(["export", str(result), "--minari", "-o", str(tmp_path / "set")]) == 0
     assert "2 episodes of 20 steps at 20 Hz" in capfd.readouterr().out
     monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path / "set"))
-    episode = minari.load_dataset("uwsim/station-v0")[1]
+    data_set = minari.load_dataset("uwsim/station-v0")
+    episode = data_set[1]
     assert episode.observations.dtype == episode.actions.dtype == np.float64
     assert len(episode.observations) == len(episode.actions) + 1 == 11
     assert (episode.actions[:, 1] == 1.0).all()  # limited, as the environment does
-    env = uwsim.make_env(result.parent / "station.xml")
+    env = data_set.recover_environment()
     observation, _ = env.reset(seed=SEED, options={"level": {"current": CURRENT}})
     assert np.array_equal(observation, episode.observations[0])
     for step, action in enumerate(episode.actions):
@@ -61,6 +65,26 @@ def test_minari_has_the_steps_of_the_environment_to_the_bit(
         assert is_truncated == episode.truncations[step]
     assert is_truncated
     env.close()
+
+
+def test_the_environment_of_a_task_has_its_name_and_its_settings() -> None:
+    pytest.importorskip("gymnasium")
+    plan = make_plan(
+        PlanRequest(
+            benchmark="circle",
+            algorithm="position-p",
+            settings=["vehicle[bluerov2].position.z=2", "algorithm.kp=0.1"],
+        )
+    )
+    arguments = find_arguments(plan)
+    assert arguments == {
+        "benchmark": "circle",
+        "scene": "open-water-scene",
+        "settings": {"vehicle[bluerov2].position.z": "2"},
+    }
+    specification = make_specification("uwsim/mine-v0", arguments)
+    assert specification.id == "uwsim/Circle-v0"
+    assert make_specification("uwsim/mine-v0", {"benchmark": "/my.xml"}).id == "uwsim/mine-v0"
 
 
 def test_lerobot_has_the_same_steps_and_rewards(

@@ -184,7 +184,9 @@ def export_result(result: Path, out: Path, steps: StepOptions, *, is_lerobot: bo
         out.mkdir(parents=True, exist_ok=True)
         lerobot.write_lerobot(episodes, out, steps.task or Path(run.plan.benchmark.path).stem)
         return describe_episodes("LeRobot v3", episodes, out)
-    identifier = minari.write_minari(episodes, out, name, algorithm or "")
+    identifier = minari.write_minari(
+        episodes, out, name, algorithm or "", minari.find_arguments(run.plan)
+    )
     return describe_episodes(f"Minari {identifier}", episodes, out)
 
 

@@ -1,7 +1,8 @@
 """Minari: episodes of observations, actions and rewards, stored as Arrow.
 
 ``MINARI_DATASETS_PATH=OUT`` and ``minari.load_dataset("uwsim/NAME-v0")`` read it. An episode has
-one observation more than actions. A recording is one truncated episode, whose reward is 0.
+one observation more than actions. A recording is one truncated episode, whose reward is 0. A result
+has the specification of its environment, which ``recover_environment()`` makes.
 """
 
 from __future__ import annotations
@@ -10,20 +11,24 @@ import importlib.util
 import os
 import re
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...assets.bundled import bundled_files
 from ...errors import MissingExtra
 from ...version import __version__
 from .csv_tables import check_folder
 from .steps import Episode, read_episode
 
 if TYPE_CHECKING:
+    from gymnasium.envs.registration import EnvSpec
     from minari.data_collector import EpisodeBuffer
+
+    from ...runs.planning.plan import Plan
 
 STORAGE = "MINARI_DATASETS_PATH"
 """The environment variable with the folder of Minari's data sets."""
@@ -53,7 +58,13 @@ def export_minari(
     return write_minari([episode], out, recording.stem), episode
 
 
-def write_minari(episodes: Sequence[Episode], out: Path, name: str, algorithm: str = "") -> str:
+def write_minari(
+    episodes: Sequence[Episode],
+    out: Path,
+    name: str,
+    algorithm: str = "",
+    environment: Mapping[str, object] | None = None,
+) -> str:
     """Write a data set of episodes with the same fields into a new folder.
 
     Args:
@@ -61,6 +72,7 @@ def write_minari(episodes: Sequence[Episode], out: Path, name: str, algorithm: s
         out: the folder.
         name: the name of the data set; other letters than those of Minari's names become "-".
         algorithm: the algorithm that acted; empty: not known.
+        environment: the arguments of `uwsim.make_env`; None: steps of no environment.
 
     Returns:
         The identifier.
@@ -70,8 +82,22 @@ def write_minari(episodes: Sequence[Episode], out: Path, name: str, algorithm: s
     out.mkdir(parents=True, exist_ok=True)
     with storage_in(out), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # about an author and a code that an export has not
-        _write(identifier, episodes, algorithm)
+        _write(identifier, episodes, algorithm, environment)
     return identifier
+
+
+def find_arguments(plan: Plan) -> dict[str, object]:
+    """Return the arguments of `uwsim.make_env` for the environment of a plan.
+
+    Files of uwsim have their names, and other files their absolute paths.
+    """
+    arguments: dict[str, object] = {}
+    for kind, path in (("benchmark", plan.benchmark.path), ("scene", plan.scene.path)):
+        file = Path(path).resolve()
+        names = {path.resolve(): name for name, path in bundled_files(f"{kind}s").items()}
+        arguments[kind] = names.get(file, str(file))
+    settings = {name: value for name, value in plan.settings if not name.startswith("algorithm.")}
+    return {**arguments, "settings": settings} if settings else arguments
 
 
 @contextmanager
@@ -87,15 +113,26 @@ def storage_in(out: Path) -> Iterator[None]:
             os.environ[STORAGE] = previous_value
 
 
-def _write(identifier: str, episodes: Sequence[Episode], algorithm: str) -> None:
+def _write(
+    identifier: str,
+    episodes: Sequence[Episode],
+    algorithm: str,
+    arguments: Mapping[str, object] | None,
+) -> None:
+    import gymnasium
     import minari
     from gymnasium.spaces import Box
 
+    environment: gymnasium.Env[object, object] | None = None
+    if arguments is not None:  # Minari asks it for its specification only
+        environment = gymnasium.Env()
+        environment.spec = make_specification(identifier, arguments)
     first, limit = episodes[0], np.inf if episodes[0].outcome is None else 1.0
     observations, actions = first.observations, first.actions
     minari.create_dataset_from_buffers(
         identifier,
         [_make_buffer(number, episode) for number, episode in enumerate(episodes)],
+        env=environment,
         observation_space=Box(-np.inf, np.inf, observations.shape[1:], observations.dtype.type),
         action_space=Box(-limit, limit, actions.shape[1:], actions.dtype.type),
         algorithm_name=algorithm or None,
@@ -104,6 +141,20 @@ def _write(identifier: str, episodes: Sequence[Episode], algorithm: str) -> None
             f"{', '.join(first.observation_names)}. Actions: {', '.join(first.action_names)}."
         ),
         data_format="arrow",
+    )
+
+
+def make_specification(identifier: str, arguments: Mapping[str, object]) -> EnvSpec:
+    """Return the specification of an environment, with the name of its task if it has one."""
+    from gymnasium.envs.registration import EnvSpec
+
+    from ...envs.registration import TASKS
+
+    names = {benchmark: name for name, benchmark in TASKS.items()}
+    return EnvSpec(
+        id=names.get(str(arguments["benchmark"]), identifier),
+        entry_point="uwsim.envs.benchmark_env:BenchmarkEnv",
+        kwargs=dict(arguments),
     )
 
 
