@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -149,3 +150,19 @@ def test_all_formats_of_one_data_set_agree(tmp_path: Path) -> None:
     assert (out / "kitti/training/image_2/000005.png").read_bytes() == (
         out / "images/000005.png"
     ).read_bytes()
+
+    sizes = sorted(i["visible_pixels"] for r in records for i in r["instances"] if i["box"])
+    limit = sizes[len(sizes) // 2]
+    assert make_dataset(replace(request, min_pixels=limit)).n_rendered == 0
+    n_large = sum(size >= limit for size in sizes)
+    assert 0 < n_large < len(sizes)
+    areas = [
+        annotation["area"]
+        for path in sorted((out / "coco").iterdir())
+        for annotation in json.loads(path.read_text())["annotations"]
+    ]
+    assert sorted(areas) == sizes[-n_large:]
+    for kind in ("labels", "kitti/training/label_2"):
+        assert sum(len(p.read_text().splitlines()) for p in (out / kind).iterdir()) == n_large
+    assert [json.loads(line) for line in (out / "labels.jsonl").read_text().splitlines()] == records
+    assert f"--min-pixels {limit} " in (out / "README.md").read_text()

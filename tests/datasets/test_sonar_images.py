@@ -182,6 +182,9 @@ def test_poses_are_drawn_around_the_target(scene: Path, tmp_path: Path) -> None:
     for record in map(json.loads, lines):
         assert "box" in {instance["name"] for instance in record["instances"]}
     assert (request.out / "contact-sheet.png").exists()
+    card = (request.out / "README.md").read_text()
+    assert card.startswith("# 3 labelled sonar images of ")
+    assert "depth" not in card
 
 
 def test_what_a_sonar_has_not_is_refused(scene: Path, tmp_path: Path) -> None:

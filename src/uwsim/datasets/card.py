@@ -30,6 +30,7 @@ OPTIONS = {
     "field_of_view": "--field-of-view",
     "fog": "--fog",
     "light": "--light",
+    "min_pixels": "--min-pixels",
     "views_per_scene": "--views-per-scene",
     "encoding": "--encoding",
     "seed": "--seed",
@@ -46,10 +47,12 @@ def write_card(
     """Write the card."""
     from ..results.atomic_file import write_text
 
+    is_sonar = request.sonar is not None
     lines = [
-        f"# {len(records)} labelled images of {Path(model.source.path).stem}",
+        f"# {len(records)} labelled {'sonar ' * is_sonar}images of {Path(model.source.path).stem}",
         "",
-        "![Images, boxes, instances and depth](contact-sheet.png)",
+        f"![Images, boxes{' and instances' if is_sonar else ', instances and depth'}]"
+        "(contact-sheet.png)",
         "",
         "## How it was made",
         "",

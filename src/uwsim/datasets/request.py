@@ -105,6 +105,8 @@ class DatasetRequest:
     """The class of objects: a pattern of names such as ``rock*``, and the class."""
     keypoints: Keypoints = ()
     """The declared keypoints of classes; a class without any has the corners of its boxes."""
+    min_pixels: int = 1
+    """The least number of visible pixels of an instance in other formats than the plain one."""
     views_per_scene: int = 25
     """The number of images of one scene draw."""
     split: tuple[float, float, float] = (0.8, 0.1, 0.1)
@@ -131,6 +133,7 @@ class DatasetRequest:
             ("-n", self.n_images, 1, MAX_IMAGES),
             ("--seed", self.seed, 0, 2**63 - 1),
             ("--views-per-scene", self.views_per_scene, 1, MAX_VIEWS),
+            ("--min-pixels", self.min_pixels, 1, 2**31),
             ("--workers", self.workers, 1, 1024),
             ("--field-of-view", self.field_of_view, 1.0, 170.0),
             ("--clearance", self.clearance, 0.0, MAX_DISTANCE),
@@ -183,7 +186,7 @@ class DatasetRequest:
     def identity(self) -> dict[str, Any]:
         """The values that determine the bytes of an image, for JSON."""
         names = {field.name for field in fields(self)}
-        names -= {"out", "n_images", "formats", "workers", "data_path", "runs_code"}
+        names -= {"out", "n_images", "formats", "min_pixels", "workers", "data_path", "runs_code"}
         return {name: _to_json(getattr(self, name)) for name in sorted(names)}
 
 

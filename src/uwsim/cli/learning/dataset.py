@@ -166,6 +166,15 @@ class LabelOptions:
             help="JSON file of named points of classes [corners of the boxes].",
         ),
     ] = None
+    min_pixels: Annotated[
+        int,
+        option(
+            OUTPUT,
+            "--min-pixels",
+            metavar="N",
+            help="Least visible pixels of an instance in COCO, KITTI and YOLO.",
+        ),
+    ] = 1
     splits: Annotated[
         str,
         option(OUTPUT, "--split", metavar="A,B,C", help="Shares of train, val and test."),
@@ -261,6 +270,7 @@ def dataset(
         settings=tuple(settings),
         classes=tuple(classes),
         keypoints=keypoints,
+        min_pixels=labels.min_pixels,
         views_per_scene=variations.views_per_scene,
         split=shares,
         encoding=labels.encoding,

@@ -13,18 +13,32 @@ from .yolo import write_yolo
 
 Writer = Callable[[DatasetRequest, Sequence[dict[str, Any]], Sequence[str]], None]
 WRITERS: dict[str, Writer] = {
-    "plain": write_plain,
     "coco": write_coco,
     "kitti": write_kitti,
     "yolo": write_yolo,
 }
-"""The function that writes each format."""
+"""The function that writes each format beside the plain one."""
 
 
 def write_formats(
     request: DatasetRequest, records: Sequence[dict[str, Any]], classes: Sequence[str]
 ) -> None:
-    """Write the labels of a data set in all requested formats, and always in the plain one."""
+    """Write the labels of a data set in all requested formats, and always in the plain one.
+
+    Instances with fewer visible pixels than the request demands are in the plain format alone.
+    """
+    write_plain(request, records, classes)
+    large_records = [
+        {
+            **record,
+            "instances": [
+                instance
+                for instance in record["instances"]
+                if instance["visible_pixels"] >= request.min_pixels
+            ],
+        }
+        for record in records
+    ]
     for name, write in WRITERS.items():
-        if name == "plain" or name in request.formats:
-            write(request, records, classes)
+        if name in request.formats:
+            write(request, large_records, classes)
