@@ -111,6 +111,16 @@ def test_every_level_stands_in_the_table(tmp_path: Path) -> None:
     assert rows.count(' class="bad"') == 3
 
 
+def test_streams_without_images_are_not_listed(tmp_path: Path) -> None:
+    result = visibility_result("esm", seeds=(1, 2))
+    first, second = result.image_streams
+    streams = (replace(first, sha256="e3" * 32, frames=0), second)
+    text = render(replace(result, image_streams=streams), tmp_path, plots=())
+    assert "e3" * 32 not in text
+    assert second.sha256 in text
+    assert "<summary>1 stream</summary>" in text
+
+
 def test_the_report_loads_nothing_and_runs_nothing(tmp_path: Path) -> None:
     page = whole_page_of(with_image(visibility_result(), tmp_path, 0, 5), tmp_path)
     sources = [v for _, attrs in page.tags for k, v in attrs.items() if k in ("src", "href")]

@@ -157,7 +157,11 @@ def render(
         inputs=list(result.inputs.files()),
         facts=facts(result),
         variations=variations(result),
-        streams=[(_stream_name(result, stream), stream) for stream in result.image_streams],
+        streams=[
+            (_stream_name(result, stream), stream)
+            for stream in result.image_streams
+            if stream.frames > 0
+        ],
         max_open_streams=MAX_OPEN_STREAMS,
         logs=logs_text(logs_of(directory)),
         is_static=is_static(result),
