@@ -277,3 +277,31 @@ def test_the_next_episodes_of_rows_keep_the_ranges_of_their_last_reset(
     rows.reset(seed=1)
     assert all(not 0.11 <= value <= 0.12 for value in rows.reset()[1]["level"]["current"])
     rows.close()
+
+
+def test_the_attitude_at_the_start_is_that_of_the_engine(tmp_path: Path) -> None:
+    scene = write_scene(tmp_path, currents="", path="vehicle[bluerov2].orientation.r")
+    text = Path(scene).read_text()
+    Path(scene).write_text(
+        text.replace(
+            "<u:vary>",
+            "<u:vary><u:uniform><u:path>vehicle[bluerov2].orientation.p</u:path>"
+            "<u:low>0.3</u:low><u:high>0.5</u:high></u:uniform>",
+        )
+    )
+    rows, env = (
+        make_rows("uwsim/StationKeeping-v0", 1, scene=scene),
+        make_env("station-keeping", scene=scene),
+    )
+    observations, infos = rows.reset(seed=3)
+    observation, _ = env.reset(seed=3)
+    np.testing.assert_allclose(observations[0], observation, atol=1e-12)
+    assert abs(infos["variations"]["vehicle[bluerov2].orientation.r"][0]) > 0.2
+    env.close()
+    rows.close()
+
+
+def test_rows_refuse_a_varied_frame_of_the_scene(tmp_path: Path) -> None:
+    scene = write_scene(tmp_path, currents="", path="simParams.offsetp.z")
+    with pytest.raises(BadSetting, match="<u:vary> changes the frame of its scene"):
+        make_rows("uwsim/Circle-v0", 1, scene=scene)

@@ -129,7 +129,7 @@ def plan_rows(plan: Plan, model: SceneModel) -> RowPlan:
 
 
 def start_paths(vehicle: str) -> list[str]:
-    """Return the paths of the numbers of a vehicle's start: x, y, z, roll, pitch, yaw."""
+    """Return the paths of the numbers of a vehicle's start: x, y, z, and the angles of Rx Ry Rz."""
     return [f"vehicle[{vehicle}].{part}" for part in START_PARTS]
 
 
@@ -214,6 +214,8 @@ def _find_variations(plan: Plan, name: str, vehicle: FreeVehicle, root: int) -> 
     paths = [item.path for item in plan.scene.vary if not item.path.startswith(other_paths)]
     if not paths:
         return []
+    if any(path.startswith("simParams") for path in paths):
+        return [f"<u:vary> changes the frame of its scene ({', '.join(paths)})"]
     other_vehicle = free_vehicle(compile_plan(plan, 1).engine_model, root)
     is_same = all(
         np.array_equal(np.asarray(a), np.asarray(b))

@@ -42,7 +42,7 @@ class Draws:
     factors: Mapping[str, Floats]
     """The value of each factor of the vehicle that was chosen, by its name in `FACTORS`, (m,)."""
     starts: Floats
-    """The position of the vehicle in L [m], and its roll, pitch and yaw [rad], (m, 6)."""
+    """The position of the vehicle in L [m], and its angles, ``Rx Ry Rz`` [rad], (m, 6)."""
 
     def level(self, i: int) -> Level:
         """Return the level of one of the rows."""

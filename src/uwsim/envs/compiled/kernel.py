@@ -50,7 +50,8 @@ def begin_episodes(
 
     Args:
         rows: the indices of the rows, (k,).
-        starts: the position of each vehicle in L [m], and its roll, pitch and yaw [rad], (k, 6).
+        starts: the position of each vehicle in L [m], and its angles in UWSim's order for
+            vehicles, ``Rx Ry Rz`` [rad], (k, 6).
         vehicles: one vehicle for all rows, or one for each.
         is_varied: true if there is one for each.
         task: the numbers of the task.
@@ -63,14 +64,14 @@ def begin_episodes(
     for i in range(len(rows)):
         row, start = rows[i], starts[i]
         state = physics.states[row]
-        write_rotation(start[3], start[4], start[5], rotation)
+        write_rotation(-start[3], -start[4], -start[5], rotation)  # the inverse of Rx Ry Rz
         for j in range(3):
             state[j] = 0.0
             for k in range(3):
                 state[j] += frame[3 * k + j] * (start[k] - frame[9 + k])
                 attitude[j, k] = 0.0
                 for m in range(3):
-                    attitude[j, k] += frame[3 * m + j] * rotation[m, k]
+                    attitude[j, k] += frame[3 * m + j] * rotation[k, m]
         write_quaternion(attitude, state[3:7])
         write_axes(state, axes)
         for j in range(3):
