@@ -6,6 +6,7 @@ import json
 import re
 import warnings
 from pathlib import Path
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -15,7 +16,7 @@ from gymnasium.utils.env_checker import check_env
 
 import uwsim
 from uwsim.envs import TASKS, BenchmarkEnv, make_env
-from uwsim.errors import BadSetting, BenchmarkError, UnknownName
+from uwsim.errors import BadSetting, BenchmarkError, UnknownName, UwsimError
 
 STATION = "uwsim.envs:uwsim/StationKeeping-v0"
 POLICY = '''
@@ -270,4 +271,63 @@ def test_a_benchmark_and_a_scene_from_python_are_an_environment() -> None:
     env.reset(seed=1)
     env.step(env.action_space.sample())
     assert env.metadata["render_fps"] == 10
+    env.close()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"period": -1}, "period is -1; expected a number above 0, at most 60 s"),
+        ({"period": 0.0}, "period is 0.0; expected a number above 0"),
+        ({"period": float("nan")}, "period is nan; expected"),
+        ({"period": float("inf")}, "period is inf; expected"),
+        ({"period": "x"}, "period is 'x'; expected"),
+        ({"action": ["/bluerov2/twist:vx=nan"]}, r"is \[nan\]; expected numbers above 0"),
+        ({"action": ["/bluerov2/twist:vx=inf"]}, r"is \[inf\]; expected numbers above 0"),
+        ({"action": ["/bluerov2/twist:vx=0"]}, r"is \[0.0\]; expected numbers above 0"),
+        ({"action": ["/bluerov2/twist:vx=-0.5"]}, r"is \[-0.5\]; expected numbers above 0"),
+        ({"action": ["/bluerov2/twist:vx=1e9"]}, "at most 1e.06"),
+        ({"action": ["/bluerov2/twist:vx", "/bluerov2/twist:vy"]}, "expected one with all axes"),
+    ],
+)
+def test_a_wrong_period_or_limit_is_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(BadSetting, match=message):
+        make_env("station-keeping", **options)
+
+
+def test_a_wrong_action_is_named_and_changes_nothing() -> None:
+    env, twin = make_env("station-keeping"), make_env("station-keeping")
+    env.reset(seed=1)
+    twin.reset(seed=1)
+    for action, message in (
+        ([0.0, float("nan"), *[0.0] * 6], r"The action has nan at \[1\]"),
+        ("abc", "The action is 'abc'; expected"),
+        (["0"] * 8, "The action is .*; expected"),
+        (np.zeros(8, np.complex128), "The action is array.*; expected"),
+        ([[1.0] * 8, [1.0]], "The action is .*; expected"),
+        ([10**400] * 8, "The action is .*; expected"),
+        (np.zeros(7), r"has the shape \(7,\); expected \(8,\)"),
+    ):
+        with pytest.raises(BadSetting, match=message):
+            env.step(action)
+    with pytest.raises(BadSetting, match=r"options is .'level'.; expected a dictionary"):
+        env.reset(options=["level"])
+    np.testing.assert_array_equal(env.step(np.ones(8))[0], twin.step(np.ones(8))[0])
+    env.close()
+    twin.close()
+
+
+def test_no_episode_runs_after_a_reset_that_failed() -> None:
+    env = make_env("station-keeping")
+    with pytest.raises(gymnasium.error.ResetNeeded, match="No episode is running"):
+        env.step(np.zeros(8))
+    env.reset(seed=2)
+    mass = "vehicle[bluerov2].hydrodynamics.body[base_link].mass"
+    with pytest.raises(UwsimError, match="expected a number > 0"):
+        env.reset(seed=3, options={"level": {mass: -1.0}})
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        env.step(np.zeros(8))
+    _, info = env.reset(seed=2)
+    env.step(np.zeros(8))
+    assert info["seed"] == 2
     env.close()

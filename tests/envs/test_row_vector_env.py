@@ -17,7 +17,7 @@ from uwsim.assets.find import find
 from uwsim.envs import RowVectorEnv, make_env
 from uwsim.envs.steppers import StepperName
 from uwsim.envs.vector_env import make_vector_env
-from uwsim.errors import BadSetting
+from uwsim.errors import BadSetting, UnknownName
 
 
 def make_rows(task: str, n: int, **options: Any) -> Any:
@@ -127,7 +127,7 @@ def test_other_libraries_share_the_memory_of_observations_that_no_step_changes()
 
 def test_rows_refuse_numbers_of_the_scene() -> None:
     rows = make_rows("uwsim/StationKeeping-v0", 1)
-    with pytest.raises(BadSetting, match=r"which rows share; expected current, or stepper"):
+    with pytest.raises(BadSetting, match=r"which rows share; expected current, mass, .*or stepper"):
         rows.reset(seed=1, options={"level": {"vehicle[bluerov2].position.x": 0.1}})
     rows.close()
 
@@ -305,3 +305,38 @@ def test_rows_refuse_a_varied_frame_of_the_scene(tmp_path: Path) -> None:
     scene = write_scene(tmp_path, currents="", path="simParams.offsetp.z")
     with pytest.raises(BadSetting, match="<u:vary> changes the frame of its scene"):
         make_rows("uwsim/Circle-v0", 1, scene=scene)
+
+
+def test_a_refused_reset_changes_no_row() -> None:
+    used, other = (make_rows("uwsim/StationKeeping-v0", 2, period=30.0) for _ in range(2))
+    used.reset(seed=np.array([1, 2]))
+    other.reset(seed=1)
+    calls: list[tuple[dict[str, Any], str]] = [
+        ({"seed": 2**63}, r"expected 0 to 2\^63 - 1"),
+        ({"seed": [5, 2**64]}, r"expected 0 to 2\^63 - 1"),
+        ({"seed": [1, 2, 3]}, "expected an integer or a list of 2"),
+        ({"seed": [1, 2.5]}, r"seed has 2\.5; expected integers or None"),
+        ({"options": {"reset_mask": [0, 1]}}, "expected an array of 2 booleans"),
+        ({"options": {"reset_mask": np.zeros(2, np.bool_)}}, "with True for one row at least"),
+        ({"options": ["level"]}, r"options is \['level'\]; expected a dictionary"),
+    ]
+    for call, message in calls:
+        with pytest.raises(BadSetting, match=message):
+            used.reset(**call)
+    actions = np.zeros((2, 8), np.float32)
+    for _ in range(3):  # an episode, and the next one with drawn seeds
+        np.testing.assert_array_equal(used.step(actions)[0], other.step(actions)[0])
+    used.close()
+    other.close()
+
+
+def test_rows_step_only_after_a_reset_and_name_wrong_options() -> None:
+    rows = make_rows("uwsim/StationKeeping-v0", 2)
+    with pytest.raises(gymnasium.error.ResetNeeded, match="No episode is running"):
+        rows.step(np.zeros((2, 8)))
+    rows.reset(seed=1)
+    with pytest.raises(BadSetting, match=r"The array of actions has inf at \[1, 3\]"):
+        rows.step(np.where(np.arange(16).reshape(2, 8) == 11, np.inf, 0.0))
+    rows.close()
+    with pytest.raises(UnknownName, match="No camera or view is called 'nope'"):
+        make_rows("uwsim/Circle-v0", 1, camera="nope")

@@ -16,6 +16,7 @@ from gymnasium.spaces import Box
 from ..editing import Benchmark, Scene
 from ..errors import BadSetting
 from ..messages.observation import Observation
+from .actions import read_action_values
 from .episode import environment_of, max_steps_of
 from .frames import Frame, FrameSource
 from .levels import read_choices
@@ -153,6 +154,7 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
         choices = read_choices(updater, options, has_paths=has_paths)
         super().reset(seed=seed)
         episode_seed = int(self.np_random.integers(MAX_SEED)) if seed is None else seed
+        self._is_over = True  # until the new episode has begun
         self._open_page()
         draws = self._stepper.begin(episode_seed, choices, self._page)
         self._begin_info = {"seed": episode_seed, **draws}
@@ -162,13 +164,8 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Apply an action for one period, or until the episode ends."""
         if self._is_over:
-            raise gymnasium.error.ResetNeeded("The episode is over; call reset() first.")
-        values = np.asarray(action, dtype=np.float64)
-        if values.shape != self.action_space.shape or not np.isfinite(values).all():
-            raise BadSetting(
-                f"The action has the shape {values.shape}; expected {self.action_space.shape}, "
-                "finite numbers from -1 to 1."
-            )
+            raise gymnasium.error.ResetNeeded("No episode is running; call reset() first.")
+        values = read_action_values(action, self.action_space.shape)
         reward, is_terminated, is_truncated = self._stepper.step(values)
         info = self._info()
         self._is_over = is_terminated or is_truncated

@@ -141,13 +141,14 @@ def read_choices(
     Raises:
         BadSetting: a key or a parameter is unknown, or a value is neither a number nor a range.
     """
-    for key in options or {}:
+    options = check_options(options)
+    for key in options:
         if key not in OPTIONS:
             raise BadSetting(
                 f"options has the key {short_repr(key)}; expected {', '.join(OPTIONS)}."
                 f"{did_you_mean(str(key), OPTIONS)}"
             )
-    level = (options or {}).get("level", {})
+    level = options.get("level", {})
     if not isinstance(level, Mapping):
         raise BadSetting(f"options['level'] is {short_repr(level)}; expected a dictionary.")
     names = (*swept_parameters(updater), *(() if has_paths else FACTORS))
@@ -168,6 +169,20 @@ def read_choices(
         if name in FACTORS and name not in swept_parameters(updater):
             _check_factor(name, choices[name])
     return choices
+
+
+def check_options(options: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """Return the options of ``reset``; None are none.
+
+    Raises:
+        BadSetting: they are no dictionary.
+    """
+    if options is not None and not isinstance(options, Mapping):
+        raise BadSetting(
+            f"options is {short_repr(options)}; expected a dictionary, as "
+            "options={'level': {'current': 0.2}}."
+        )
+    return options or {}
 
 
 def _check_factor(name: str, choice: Value) -> None:

@@ -15,10 +15,11 @@ from ..editing import Benchmark, Scene
 from ..errors import BadSetting, UnknownName, did_you_mean
 from ..messages.observation import Observation
 from ..runs.planning.trial_cache import TrialCache
+from .actions import read_action_values
 from .benchmark_env import MAX_SEED, Action
 from .episode import Episode
 from .frames import Frame, FrameSource
-from .levels import OPTIONS, draw_level, is_path, read_choices, vary_plan
+from .levels import OPTIONS, check_options, draw_level, is_path, read_choices, vary_plan
 from .spaces import observation_space
 from .task import AgentOptions, EnvironmentOptions, make_agents_task
 
@@ -117,13 +118,14 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Observation, Action]):  # type: igno
         """
         known_options = {
             key: value
-            for key, value in (options or {}).items()
+            for key, value in check_options(options).items()
             if key in OPTIONS or did_you_mean(key, OPTIONS)
         }
         choices = read_choices(self._plan.benchmark.scene_updater, known_options)
         if seed is not None:
             self._generator = np.random.default_rng(seed)
         episode_seed = int(self._generator.integers(MAX_SEED)) if seed is None else seed
+        self.agents = []  # until the new episode has begun
         if self._episode is not None:
             self._episode.close()
         self._episode = self._begin(episode_seed, choices)
@@ -142,11 +144,11 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Observation, Action]):  # type: igno
         """Apply an action of each agent for one period, or until the episode ends.
 
         Raises:
-            BadSetting: the episode is over, an agent has no action, or an action is invalid.
+            BadSetting: no episode is running, an agent has no action, or an action is invalid.
         """
         episode, agents = self._episode, self.possible_agents
         if episode is None or not self.agents:
-            raise BadSetting("The episode is over; call reset() first.")
+            raise BadSetting("No episode is running; call reset() first.")
         rewards = episode.step([self._read_action(agent, actions) for agent in agents])
         is_over, is_truncated = episode.row is not None, episode.is_truncated
         observations, infos = self._observe(episode), self._infos(episode)
@@ -176,14 +178,8 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Observation, Action]):  # type: igno
     def _read_action(self, agent: str, actions: Mapping[str, Action]) -> Array:
         if agent not in actions:
             raise UnknownName("agent of an action", agent, list(actions))
-        values = np.asarray(actions[agent], dtype=np.float64)
         shape = self.action_spaces[agent].shape
-        if values.shape != shape or not np.isfinite(values).all():
-            raise BadSetting(
-                f"The action of {agent!r} has the shape {values.shape}; expected {shape}, "
-                "finite numbers from -1 to 1."
-            )
-        return values
+        return read_action_values(actions[agent], shape, f"The action of {agent!r}")
 
     def _begin(self, seed: int, choices: Mapping[str, float | tuple[float, float]]) -> Episode:
         self._seed = seed

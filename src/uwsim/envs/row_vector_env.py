@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import gymnasium
 import numpy as np
 import numpy.typing as npt
 from gymnasium.spaces import Box
@@ -18,12 +19,14 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from ..base.geometry import Array
+from ..base.numerics.named_draws import seed_array
 from ..benchmark.environment.observer import MAX_OBSERVATION
-from ..errors import BadSetting
+from ..errors import BadSetting, short_repr
 from ..runs.planning.plan import Plan
+from .actions import read_action_values
 from .benchmark_env import MAX_SEED
 from .compiled.episodes import Episodes
-from .levels import Value, read_choices
+from .levels import Value, check_options, read_choices
 from .steppers import ROWS
 
 Flags = npt.NDArray[np.bool_]
@@ -67,6 +70,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
         self._generators: list[np.random.Generator | None] = [None] * num_envs
         self._choices: list[Mapping[str, Value]] = [{}] * num_envs  # of the last reset of a row
         self._rows_to_reset = np.ones(num_envs, np.bool_)
+        self._is_new = True  # no episode was begun
 
     @property
     def stepper(self) -> str:
@@ -86,29 +90,20 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
             options: ``{"level": {...}}`` as for `BenchmarkEnv`, and ``reset_mask`` (n,). Automatic
                 resets keep the level.
         """
-        options = dict(options or {})
-        mask = np.array(options.pop("reset_mask", np.ones(self.num_envs)), dtype=np.bool_)
-        if mask.shape != (self.num_envs,):
-            raise BadSetting(f"reset_mask has the shape {mask.shape}; expected {self.num_envs}.")
+        options = dict(check_options(options))
+        mask = _read_mask(options.pop("reset_mask", None), self.num_envs)
         choices = read_choices(self._updater, options, has_paths=False)
-        seeds = (
-            list(seed)
-            if isinstance(seed, Sequence)
-            else [None if seed is None else seed + i for i in range(self.num_envs)]
-        )
-        self._begin(mask, seeds, choices)
+        self._begin(mask, _read_seeds(seed, self.num_envs), choices)
+        self._is_new = False
         for i in np.flatnonzero(mask).tolist():
             self._choices[i] = choices
         return self._episodes.arrays.observations.copy(), self._infos(mask)
 
     def step(self, actions: npt.ArrayLike) -> tuple[Array, Array, Flags, Flags, dict[str, Any]]:
         """Take a step with each row; rows whose episode is over begin a new one (`NEXT_STEP`)."""
-        values = np.asarray(actions)
-        if values.shape != self.action_space.shape or not np.isfinite(values).all():
-            raise BadSetting(
-                f"The actions have the shape {values.shape}; expected {self.action_space.shape}, "
-                "finite numbers from -1 to 1."
-            )
+        if self._is_new:
+            raise gymnasium.error.ResetNeeded("No episode is running; call reset() first.")
+        values = read_action_values(actions, self.action_space.shape, "The array of actions")
         resets = self._rows_to_reset
         infos: dict[str, Any] = {}
         if resets.any():
@@ -193,6 +188,43 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
             "final_info": {**self._infos(finished_rows), **result},
             "_final_info": finished_rows.copy(),
         }
+
+
+def _read_seeds(seed: int | Sequence[int | None] | None, n: int) -> list[int | None]:
+    """Return the seed of each row; None: the row draws one.
+
+    Raises:
+        BadSetting: there are other than n seeds, or one is no integer from 0 to 2^63 - 1.
+    """
+    if seed is None:
+        return [None] * n
+    if isinstance(seed, int | np.integer):
+        return list(seed_array([int(seed) + i for i in range(n)]).tolist())
+    seeds = seed.tolist() if isinstance(seed, np.ndarray) else seed
+    if not isinstance(seeds, list | tuple) or len(seeds) != n:
+        raise BadSetting(f"seed is {short_repr(seed)}; expected an integer or a list of {n}.")
+    for value in seeds:
+        if value is not None and not isinstance(value, int | np.integer):
+            raise BadSetting(f"seed has {short_repr(value)}; expected integers or None.")
+    seed_array([int(value) for value in seeds if value is not None])
+    return [None if value is None else int(value) for value in seeds]
+
+
+def _read_mask(mask: object, n: int) -> Flags:
+    """Return the rows to reset; without a mask, all.
+
+    Raises:
+        BadSetting: the mask is no array of n booleans, or chooses no row.
+    """
+    if mask is None:
+        return np.ones(n, np.bool_)
+    flags: Flags = np.array(mask)
+    if flags.dtype != np.bool_ or flags.shape != (n,) or not flags.any():
+        raise BadSetting(
+            f"reset_mask is {short_repr(mask)}; expected an array of {n} booleans with True for "
+            "one row at least."
+        )
+    return flags
 
 
 def _spread(values: Mapping[str, Any], rows: npt.NDArray[np.int64], n: int) -> dict[str, Any]:

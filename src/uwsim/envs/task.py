@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypedDict, get_args
 
+from ..base.external_values import read_number
 from ..benchmark.environment import (
     ActionSpec,
     ContactSpec,
@@ -18,11 +19,12 @@ from ..benchmark.environment import (
     RelativePoseSpec,
     TopicFieldSpec,
 )
+from ..benchmark.environment.spec import MAX_PERIOD
 from ..benchmark.updaters import Level
 from ..bus import Node
 from ..editing import Benchmark, Scene
 from ..editing.run_files import write_run_files
-from ..errors import BadSetting, UnknownName, did_you_mean
+from ..errors import BadSetting, UnknownName, did_you_mean, short_repr
 from ..messages import Empty
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan import Plan, Trial
@@ -215,6 +217,8 @@ def change_environment(
         for name in ("reward", "success", "vehicle", "reference", "period")
         if (value := getattr(options, name)) is not None
     }
+    if options.period is not None:
+        _check_period(options.period)
     if options.observation is not None:
         relations = [read_relation(name) for name in options.observation if "(" in name]
         changes["relative_pose"] = tuple(r for r in relations if isinstance(r, RelativePoseSpec))
@@ -235,6 +239,15 @@ def change_environment(
         vehicles = [vehicle.name for vehicle in plan.scene.vehicles]
         spec = EnvironmentSpec(vehicle=vehicles[0] if vehicles else "", action=())
     return replace(spec, **changes)
+
+
+def _check_period(period: float) -> None:
+    """Raise BadSetting if a period is no number that a benchmark file may have."""
+    number = read_number(period)
+    if number is None or not 0.0 < number <= MAX_PERIOD:
+        raise BadSetting(
+            f"period is {short_repr(period)}; expected a number above 0, at most {MAX_PERIOD:g} s."
+        )
 
 
 def _read_part(text: str) -> TopicFieldSpec | ImageSpec:

@@ -14,6 +14,7 @@ from ..editing import Benchmark, Scene
 from ..errors import BadSetting
 from ..messages.observation import Observation
 from .benchmark_env import BenchmarkEnv
+from .frames import FrameSource
 from .make import EnvOptions
 from .row_task import RowsRefused
 from .row_vector_env import RowVectorEnv
@@ -163,6 +164,7 @@ def make_vector_env(
         data_path=data_path,
         scene=options.get("scene"),
     )
+    FrameSource(plan.scene, options.get("camera"), options.get("frame_size"))  # checks the names
     try:
         return RowVectorEnv(plan, num_envs, threads=threads, autoreset_mode=autoreset_mode)
     except RowsRefused:

@@ -21,6 +21,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ...base.expression import ScoreError, parse
+from ...base.external_values import MAX_COMMAND
 from ...errors import did_you_mean
 from ...messages.observation import STATE
 from ...schema import Numbers, Spec, element
@@ -34,6 +35,8 @@ from .reward import PATH_SPEED, REWARD_NAMES
 
 AXES = (*TWIST_UNITS, *WRENCH_UNITS)
 """The axes of commands by twists and wrenches."""
+MAX_PERIOD = 60.0
+"""The greatest time between two actions [s]."""
 MAX_SIZE = 4096
 """The greatest number of numbers of an array in a message."""
 
@@ -106,7 +109,7 @@ class EnvironmentSpec(Spec):
 
     vehicle: str = element(refers_to="vehicle")
     """The vehicle whose state is observed."""
-    period: float = element(default=0.05, exclusive_minimum=0.0, maximum=60.0)
+    period: float = element(default=0.05, exclusive_minimum=0.0, maximum=MAX_PERIOD)
     """The time between two actions [s]."""
     reference: str | None = element(default=None)
     """The measure that has the desired position: a ``<positionError>`` or a
@@ -260,7 +263,20 @@ class EnvironmentSpec(Spec):
                 yield "image", f"the image of {image.sensor[:60]!r} needs <width> and <height>"
 
     def _action_errors(self) -> Iterator[tuple[str, str]]:
-        for action in self.action:
+        topics = [action.topic for action in self.action]
+        for i, action in enumerate(self.action):
+            if action.topic in topics[:i]:
+                yield (
+                    "action",
+                    f"two actions have the topic {action.topic[:60]!r}, of which the last would "
+                    "replace the first; expected one with all axes",
+                )
+            if not all(0.0 < limit <= MAX_COMMAND for limit in action.limits):
+                yield (
+                    "action",
+                    f"<limits> of {action.topic!r} is {list(action.limits)}; expected numbers "
+                    f"above 0, at most {MAX_COMMAND:g}",
+                )
             n_axes, n_limits = len(action.axes.split()), len(action.limits)
             if n_limits > 1 and n_axes and n_limits != n_axes:
                 yield (
