@@ -115,6 +115,34 @@ def test_names_are_unique(scene: Scene) -> None:
         scene.rename("blackbox", "terrain")
 
 
+def test_an_object_does_not_have_the_name_of_a_vehicle(scene: Scene) -> None:
+    with pytest.raises(BadSetting, match="'girona500' already; names are unique"):
+        scene.add("object", name="girona500", file="box.obj")
+
+
+def test_a_removed_element_is_not_changed(scene: Scene) -> None:
+    camera = scene[CAMERA]
+    box = scene["blackbox"]
+    scene.objects.remove("blackbox")
+    with pytest.raises(BadSetting, match="The Object 'blackbox' was removed from the scene"):
+        box.position = (0, 0, 1)
+    scene.vehicles.remove("girona500")
+    with pytest.raises(BadSetting, match="'girona500' was removed from the scene"):
+        camera.resw = 640
+
+
+def test_an_attribute_is_not_deleted(scene: Scene) -> None:
+    with pytest.raises(BadSetting, match="blackbox: name cannot be deleted"):
+        del scene["blackbox"].name
+    with pytest.raises(AttributeError, match="Did you mean 'name'"):
+        del scene["blackbox"].nam
+
+
+def test_a_text_in_place_of_an_element_names_its_attribute() -> None:
+    with pytest.raises(BadSetting, match=r"A text is set as function\.text"):
+        Benchmark().function = "offset"  # type: ignore[assignment]
+
+
 def test_an_element_stays_valid_when_others_are_removed(scene: Scene) -> None:
     box = scene["blackbox"]
     scene.remove("terrain")

@@ -40,6 +40,14 @@ def test_a_written_scene_finds_its_files_from_another_folder(
     assert scene_with_mesh.object("plate").file == "meshes/plate.obj"
 
 
+def test_a_file_is_written_to_a_folder_that_exists(tmp_path: Path) -> None:
+    scene = read_scene("cirs")
+    with pytest.raises(BadSetting, match="there is no folder"):
+        scene.write(tmp_path / "missing" / "scene.xml")
+    with pytest.raises(BadSetting, match="is a folder; expected the path of a file"):
+        scene.write(tmp_path)
+
+
 def test_names_of_bundled_files_do_not_change(tmp_path: Path) -> None:
     scene = read_scene("cirs")
     assert read_scene(scene.write(tmp_path / "cirs.xml")).spec == scene.spec

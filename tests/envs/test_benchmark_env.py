@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import re
 import warnings
@@ -252,6 +253,52 @@ def test_mistakes_name_the_nearest_valid_name() -> None:
     env = make_env("station-keeping")
     with pytest.raises(BadSetting, match="current"):
         env.reset(options={"level": {"curent": 0.1}})
+    env.close()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"action": ["/bluerov2/twist:vx=nan"]}, "has nan; expected numbers above 0"),
+        ({"action": ["/bluerov2/twist:vx=0"]}, "has 0; expected numbers above 0"),
+        ({"action": ["/bluerov2/twist:vx=1e9"]}, r"at most 1e\+06"),
+        ({"action": ["/bluerov2/twist:vx,vx"]}, "names 'vx' twice"),
+        ({"action": ["/bluerov2/thrusters"] * 2}, "two <action> are on '/bluerov2/thrusters'"),
+        ({"action": "/bluerov2/thrusters"}, "expected a list of texts, as"),
+        ({"observation": "heading"}, r"'heading'; expected a list of texts, as \['positionError'"),
+        ({"observation": [1]}, "expected a list of texts"),
+        ({"observation": ["camera:img=64x64"]}, "'img' is no content .* Did you mean 'image'"),
+        ({"observation": ["camera:image=20000x20000"]}, "each 1 to 4096 px"),
+        ({"observation": ["camera:image=9000x9000"]}, "expected 4096 px at most"),
+        ({"reward": len}, "expected a text, as 'exp"),
+        ({"frame_size": 5}, "frame_size is 5; expected width and height"),
+        ({"frame_size": (5, 6, 7)}, "frame_size"),
+        ({"real_time_factor": "x"}, "real_time_factor is 'x'; expected a number"),
+    ],
+)
+def test_an_invalid_option_is_one_line_with_the_expectation(options: Any, message: str) -> None:
+    with pytest.raises(BadSetting, match=message) as caught:
+        make_env("station-keeping", **options)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("stepper", ["engine", "rows"])
+def test_invalid_options_of_a_vector_are_one_line(stepper: str) -> None:
+    for options, message in (
+        ({"autoreset_mode": "nextstep"}, "Did you mean 'NextStep'"),
+        ({"num_envs": 0}, "num_envs is 0; expected a whole number from 1 on"),
+        ({"num_envs": "2"}, "num_envs is '2'"),
+    ):
+        with pytest.raises(BadSetting, match=message):
+            gymnasium.make_vec(STATION, stepper=stepper, **{"num_envs": 2, **options})
+
+
+def test_an_environment_without_an_episode_says_so_and_is_not_copied() -> None:
+    env = make_env("station-keeping")
+    with pytest.raises(gymnasium.error.ResetNeeded, match="no episode yet; call reset"):
+        env.step(np.zeros(8, np.float32))
+    with pytest.raises(TypeError, match="make another one with the same arguments"):
+        copy.deepcopy(env)
     env.close()
 
 

@@ -142,6 +142,15 @@ def test_one_vehicle_of_several_is_a_gymnasium_environment(short_benchmark: str)
 def test_invalid_agents_and_actions_are_errors(short_benchmark: str, tmp_path: Path) -> None:
     with pytest.raises(UnknownName, match="leader"):
         make_parallel_env(short_benchmark, agents={"leadr": {}})
+    invalid_agents: Any
+    for invalid_agents, message in (
+        ({"leader": {"rewrd": "1"}}, "has no option 'rewrd'. Did you mean 'reward'"),
+        ({"leader": 3}, r"agents\['leader'\] is 3; expected a dictionary"),
+        (["leader"], "expected a dictionary with a vehicle"),
+        ({}, "agents is {}; expected a dictionary with a vehicle"),
+    ):
+        with pytest.raises(BadSetting, match=message):
+            make_parallel_env(short_benchmark, agents=invalid_agents)
     with pytest.raises(BadSetting, match=r"periods 0.05, 0.1 s"):
         make_parallel_env(short_benchmark, agents={"leader": {"period": 0.1}, "follower": {}})
     env = make_parallel_env(short_benchmark)

@@ -30,7 +30,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..bus import Algorithm, Node
-from ..errors import UnknownName
+from ..errors import BadMessage, UnknownName, short_repr
 from ..messages import Empty, Float64MultiArray, Image, MultiArrayLayout, array_of
 from ..messages.observation import join_parts
 
@@ -97,7 +97,13 @@ class _PolicyLoop:
                 self._policy.layout = self._layout
         state = message.data.copy() if message.data.size else None
         action = self._policy(join_parts(state, self._images))
-        data = np.asarray(action, dtype=np.float64).reshape(-1)
+        try:
+            data = np.asarray(action, dtype=np.float64).reshape(-1)
+        except (TypeError, ValueError):
+            raise BadMessage(
+                f"The policy returned {short_repr(action)}; expected an array of numbers from -1 "
+                "to 1."
+            ) from None
         layout = MultiArrayLayout(dim=[], data_offset=0)
         self._publish(Float64MultiArray(layout=layout, data=data))
 

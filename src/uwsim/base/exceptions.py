@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import RunFailed
+from ..errors import RunFailed, UwsimError
 from .interrupts import is_user_interrupt
 
 
@@ -23,7 +23,8 @@ def describe_exception(error: BaseException, program: type) -> str:
     """Return the text of an exception of a third-party program, with its file and line.
 
     The file is that of the program, or of the last stack frame if no frame is in the program. It is
-    named without its folders, so that results do not depend on its location.
+    named without its folders, so that results do not depend on its location. An error of uwsim
+    without a frame in the program has no file, since its text is enough.
 
     Args:
         error: the exception.
@@ -33,7 +34,9 @@ def describe_exception(error: BaseException, program: type) -> str:
         return str(error)
     frames = traceback.extract_tb(error.__traceback__)[1:]  # without the frame of the caller
     program_file = getattr(sys.modules.get(program.__module__), "__file__", None)
-    program_frames = [frame for frame in frames if frame.filename == program_file] or frames
+    program_frames = [frame for frame in frames if frame.filename == program_file]
+    if not program_frames and not isinstance(error, UwsimError):
+        program_frames = frames
     place = ""
     if program_frames:
         place = f"{Path(program_frames[-1].filename).name}:{program_frames[-1].lineno}: "

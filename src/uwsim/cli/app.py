@@ -14,7 +14,6 @@ from typing import Annotated
 
 import typer
 
-from ..base.numerics.compiling import on_slow_start
 from ..base.terminal import suppress_cast_warnings
 from ..version import __version__
 from .exit_status import INTERRUPT_STATUS, exit_status, format_error
@@ -270,14 +269,10 @@ CLOSED_OUTPUT = 1
 """The exit status if the reading program closes the pipe, as in ``uwsim list | head -1``."""
 
 
-COMPILATION_MESSAGE = "uwsim: compiling for this processor (up to a minute, the first time only)"
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``uwsim`` and return its exit status: 0 done, 2 invalid input, 3 the run failed."""
     all_words = list(sys.argv[1:] if arguments is None else arguments)
     words = [word for word in all_words if word != TRACEBACK] or ["--help"]
-    on_slow_start(report_compilation)
     suppress_cast_warnings()
     try:
         reject_old_options(words, COMMANDS)
@@ -296,12 +291,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if result == INTERRUPT_STATUS:
         return print_error(KeyboardInterrupt())
     return result if isinstance(result, int) else 0
-
-
-def report_compilation() -> None:
-    """Print to a terminal that the start takes longer because of compilation."""
-    if sys.stderr.isatty():
-        print(COMPILATION_MESSAGE, file=sys.stderr)
 
 
 def print_error(error: BaseException) -> int:

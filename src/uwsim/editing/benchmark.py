@@ -29,7 +29,7 @@ from ..checks.benchmark_tables import read_plugins
 from ..errors import BadSetting, BenchmarkError, Diagnostic
 from ..scene.variation import VariationSpec
 from .attributes import Part, Parts
-from .document import Document, check_equal
+from .document import Document, check_equal, write_document
 from .element import Element
 from .file_names import move_file_names
 from .scene import Scene
@@ -188,12 +188,10 @@ class Benchmark(Document[BenchmarkSpec]):
         Raises:
             UwsimError: the benchmark is invalid, or the folder does not exist.
         """
-        from ..results.atomic_file import write_text
-
         new_path = Path(path)
         moved_benchmark = Benchmark(self.checked_spec(), plugins=self._plugins)
         move_file_names(moved_benchmark, self.path, new_path)
-        write_text(new_path, moved_benchmark.to_xml())
+        write_document(new_path, moved_benchmark.to_xml())
         return new_path
 
     @property

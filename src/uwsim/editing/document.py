@@ -43,6 +43,21 @@ class Document(Element[S]):
         return (*parent_folders(named_by), *(Path(folder) for folder in data_path))
 
 
+def write_document(path: Path, text: str) -> None:
+    """Write the text of a file.
+
+    Raises:
+        BadSetting: the folder does not exist, or the path is that of a folder.
+    """
+    from ..results.atomic_file import write_text
+
+    if path.is_dir():
+        raise BadSetting(f"{path} is a folder; expected the path of a file.")
+    if not path.parent.is_dir():
+        raise BadSetting(f"{path}: there is no folder {str(path.parent)!r}.")
+    write_text(path, text)
+
+
 def check_equal(spec: Spec, read_spec: Spec) -> None:
     """Raise BadSetting if the spec of a written text is another one."""
     for field in dataclasses.fields(spec):

@@ -72,6 +72,7 @@ class Element(Generic[S]):
         Raises:
             BadSetting: a name or a value is invalid.
         """
+        self._check_attached()
         checked_values = {name: self._checked_value(name, value) for name, value in values.items()}
         for name, value in checked_values.items():
             self._values[name] = self._wrap(name, value)
@@ -131,6 +132,14 @@ class Element(Generic[S]):
         else:
             self.set(**{name: value})
 
+    def __delattr__(self, name: str) -> None:
+        if name.startswith("_"):
+            object.__delattr__(self, name)
+            return
+        if name not in self._values:
+            raise self._unknown_field(name)
+        raise BadSetting(f"{self.label}: {name} cannot be deleted; set another value.")
+
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self._fields, *self._places})
 
@@ -147,6 +156,26 @@ class Element(Generic[S]):
     @property
     def _prefix(self) -> str:
         return "" if self._parent is None else f"{self.label}/"
+
+    def _children(self) -> Iterator[Element[Any]]:
+        """Yield the elements in this one."""
+        for value in self._values.values():
+            if isinstance(value, Element):
+                yield value
+            elif isinstance(value, ElementList):
+                yield from value
+
+    def _check_attached(self) -> None:
+        """Raise BadSetting if the element, or one that contains it, was removed."""
+        parent = self._parent
+        if parent is None:
+            return
+        if not any(child is self for child in parent._children()):
+            raise BadSetting(
+                f"The {self._kind.__name__.removesuffix('Spec')} {name_of(self) or 'element'!r} "
+                f"was removed from {parent.label}; its values cannot be set."
+            )
+        parent._check_attached()
 
     def _take(self, spec: S) -> None:
         """Take all values of a spec."""
@@ -234,7 +263,8 @@ class ElementList(Sequence[Element[S]]):
             self._place, (spec,), f"{self._owner._prefix}{self._place.name}"
         )
         element = Element(cast(S, new_spec), self._owner, self._owner._tables)
-        if (name := name_of(element)) and name in self.names:
+        names = [name_of(other) for other in self._owner._children()]
+        if (name := name_of(element)) and name in names:
             raise BadSetting(f"{self._owner.label} has {name!r} already; names are unique.")
         self._elements.append(element)
         return element
@@ -328,5 +358,8 @@ def _checked_spec(place: Place, value: Any, label: str) -> Spec:
         names = list(dict.fromkeys(kind.__name__ for kind in place.kinds.values()))
         near = did_you_mean(type(spec).__name__, names)
         expected = f"one of {len(names)} kinds of specs" if len(names) > 5 else " or ".join(names)
+        text_fields = [f for kind in place.kinds.values() for f in fields_of(kind) if f.xml.text]
+        if isinstance(value, str) and len(names) == len(text_fields) == 1:
+            near = f" A text is set as {label}.{text_fields[0].name}."
         raise BadSetting(f"{label} is {short_repr(value)}; expected {expected}.{near}")
     return cast(Spec, spec)

@@ -31,7 +31,7 @@ from ..scene.writer import write_scene
 from ..topics import InterfaceSpec
 from ..world import TIMESTEP
 from .attributes import OptionalPart, Part, Parts
-from .document import Document, check_equal
+from .document import Document, check_equal, write_document
 from .element import Element
 from .file_names import move_file_names
 from .text_diagnostics import locate_diagnostics
@@ -182,12 +182,10 @@ class Scene(Document[SceneSpec]):
         Raises:
             UwsimError: the scene is invalid, or the folder does not exist.
         """
-        from ..results.atomic_file import write_text
-
         new_path = Path(path)
         moved_scene = Scene(self.checked_spec())
         move_file_names(moved_scene, self.path, new_path)
-        write_text(new_path, moved_scene.to_xml())
+        write_document(new_path, moved_scene.to_xml())
         return new_path
 
     @property

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from gymnasium.spaces import Box
 
 from ..editing import Benchmark, Scene
-from ..errors import BadSetting
+from ..errors import BadSetting, short_repr
 from ..messages.observation import Observation
 from .actions import read_action_values
 from .episode import environment_of, max_steps_of
@@ -89,8 +89,11 @@ class BenchmarkEnv(gymnasium.Env[Observation, Action]):  # type: ignore[misc]  #
                 f"render_mode is {render_mode!r}; expected 'rgb_array', 'human' or None. "
                 "(RenderCollection of Gymnasium gives lists of images.)"
             )
-        if not real_time_factor >= 0.0:
-            raise BadSetting(f"real_time_factor is {real_time_factor!r}; expected at least 0.")
+        if not isinstance(real_time_factor, int | float) or not real_time_factor >= 0.0:
+            raise BadSetting(
+                f"real_time_factor is {short_repr(real_time_factor)}; expected a number, at least "
+                "0."
+            )
         options = EnvironmentOptions(
             observation=observation,
             action=action,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
-from typing import Any
+from typing import Any, NoReturn
 
 from ..base.expression import parse
 from ..base.geometry import Array
@@ -69,6 +69,13 @@ class Episode:
         except BaseException:
             self._stack.close()
             raise
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse a copy, as of ``copy.deepcopy``: the engine's state is shared with the trial."""
+        raise TypeError(
+            "A running environment cannot be copied or pickled; make another one with the same "
+            "arguments, and reset it with the same seed."
+        )
 
     @property
     def simulation(self) -> Simulation:

@@ -15,12 +15,14 @@ A camera is rendered without noise. In views, water has no fog and physical wate
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from numbers import Integral
 
 import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Intrinsics, Pose
-from ..errors import BadSetting, UnknownName
+from ..errors import BadSetting, UnknownName, short_repr
 from ..scene.sizes import find_size_error
 from ..scene.spec import SceneSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
@@ -40,6 +42,15 @@ VIEWS = ("chase", "orbit", "top", "viewer")
 """The names of the views."""
 TURNING_TIME = 1.0
 """The time constant with which the chase camera follows the heading [s of simulation time]."""
+
+
+def _is_size(value: object) -> bool:
+    """Return whether a value is a width and a height, whole numbers from 1 on."""
+    return (
+        isinstance(value, Sequence)
+        and len(value) == 2
+        and all(isinstance(number, Integral) and int(number) >= 1 for number in value)
+    )
 
 
 class FrameSource:
@@ -65,9 +76,9 @@ class FrameSource:
         if camera is not None and camera not in (*cameras, *VIEWS):
             raise UnknownName("camera or view", camera, (*cameras, *VIEWS))
         self._camera = camera or (cameras[0] if cameras else "orbit")
-        if size is not None and min(size) < 1:
+        if size is not None and not _is_size(size):
             raise BadSetting(
-                f"frame_size is {size}; expected width and height [px], as (640, 480)."
+                f"frame_size is {short_repr(size)}; expected width and height [px], as (640, 480)."
             )
         if size is not None and (error := find_size_error(*size, scene.ocean_state.water)):
             raise BadSetting(f"frame_size: {error}.")

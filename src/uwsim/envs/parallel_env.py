@@ -21,7 +21,7 @@ from .episode import Episode
 from .frames import Frame, FrameSource
 from .levels import OPTIONS, check_options, draw_level, is_path, read_choices, vary_plan
 from .spaces import observation_space
-from .task import AgentOptions, EnvironmentOptions, make_agents_task
+from .task import AgentOptions, make_agents_task, read_agents
 
 
 class ParallelBenchmarkEnv(ParallelEnv[str, Observation, Action]):  # type: ignore[misc]  # as Gymnasium
@@ -63,12 +63,9 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Observation, Action]):  # type: igno
     ) -> None:
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise BadSetting(f"render_mode is {render_mode!r}; expected 'rgb_array' or None.")
-        options = None
-        if agents is not None:
-            options = {name: EnvironmentOptions(**parts) for name, parts in agents.items()}
         self._plan = make_agents_task(
             benchmark,
-            options,
+            read_agents(agents),
             settings=settings or {},
             data_path=tuple(data_path),
             scene=scene,

@@ -8,6 +8,7 @@ single environment with ``stepper="rows"``, to the bit.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from numbers import Integral
 from typing import Any
 
 import gymnasium
@@ -21,7 +22,7 @@ from gymnasium.vector.utils import batch_space
 from ..base.geometry import Array
 from ..base.numerics.named_draws import seed_array
 from ..benchmark.environment.observer import MAX_OBSERVATION
-from ..errors import BadSetting, short_repr
+from ..errors import BadSetting, did_you_mean, short_repr
 from ..runs.planning.plan import Plan
 from .actions import read_action_values
 from .benchmark_env import MAX_SEED
@@ -30,6 +31,23 @@ from .levels import Value, check_options, read_choices
 from .steppers import ROWS
 
 Flags = npt.NDArray[np.bool_]
+
+
+def read_vector_options(num_envs: object, autoreset_mode: object) -> AutoresetMode:
+    """Check the number of rows, and return the mode of automatic resets.
+
+    Raises:
+        BadSetting: the number is no whole number from 1 on, or there is no such mode.
+    """
+    if not isinstance(num_envs, Integral) or int(num_envs) < 1:
+        raise BadSetting(f"num_envs is {short_repr(num_envs)}; expected a whole number from 1 on.")
+    modes = [mode.value for mode in AutoresetMode]
+    if not isinstance(autoreset_mode, AutoresetMode) and autoreset_mode not in modes:
+        raise BadSetting(
+            f"autoreset_mode is {short_repr(autoreset_mode)}; expected {', '.join(modes)}."
+            f"{did_you_mean(str(autoreset_mode), modes)}"
+        )
+    return AutoresetMode(autoreset_mode)
 
 
 class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
@@ -55,9 +73,10 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
         threads: int = 1,
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
     ) -> None:
+        mode = read_vector_options(num_envs, autoreset_mode)
         self._updater, self.num_envs = plan.benchmark.scene_updater, num_envs
         self._episodes = Episodes(plan, num_envs, threads=threads)
-        self._mode = AutoresetMode(autoreset_mode)
+        self._mode = mode
         self.metadata = {"render_modes": [], "autoreset_mode": self._mode}
         self.layout = self._episodes.layout
         """The name and the size of each part of an observation, in order."""

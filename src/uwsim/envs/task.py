@@ -12,6 +12,7 @@ from typing import Any, TypedDict, get_args
 
 from ..base.external_values import read_number
 from ..benchmark.environment import (
+    MAX_SIZE,
     ActionSpec,
     ContactSpec,
     EnvironmentSpec,
@@ -33,6 +34,16 @@ from ..world import ImageContent
 
 IMAGE_CONTENTS: tuple[ImageContent, ...] = get_args(ImageContent)
 """The contents of observed images."""
+LISTS = {"observation": "['positionError']", "action": "['/bluerov2/thrusters']"}
+"""The parts of an environment that are lists of texts, with an example of each."""
+TEXTS = {
+    "reward": "'exp(-offset)'",
+    "success": "'offset < 0.3'",
+    "vehicle": "'bluerov2'",
+    "reference": "'offset'",
+}
+"""The parts of an environment that are texts, with an example of each."""
+AGENTS_EXAMPLE = "agents={'bluerov2': {'observation': [...], 'action': [...]}}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,6 +69,22 @@ class EnvironmentOptions:
     period: float | None = None
     """The time between two actions [s]."""
 
+    def __post_init__(self) -> None:
+        """Raise BadSetting if a part is not of its type; the period has a check of its own."""
+        for name, example in LISTS.items():
+            value = getattr(self, name)
+            if value is None:
+                continue
+            is_list = isinstance(value, Sequence) and not isinstance(value, str | bytes)
+            if not is_list or not all(isinstance(item, str) for item in value):
+                raise BadSetting(
+                    f"{name} is {short_repr(value)}; expected a list of texts, as {example}."
+                )
+        for name, example in TEXTS.items():
+            value = getattr(self, name)
+            if value is not None and not isinstance(value, str):
+                raise BadSetting(f"{name} is {short_repr(value)}; expected a text, as {example}.")
+
 
 class AgentOptions(TypedDict, total=False):
     """The options of the environment of one of several vehicles; `BenchmarkEnv` describes them."""
@@ -68,6 +95,37 @@ class AgentOptions(TypedDict, total=False):
     success: str | None
     reference: str | None
     period: float | None
+
+
+def read_agents(agents: object) -> dict[str, EnvironmentOptions] | None:
+    """Return the options of each agent, from a dictionary for each vehicle; None: those of a file.
+
+    Raises:
+        BadSetting: it has another form, or an option is unknown or invalid.
+    """
+    if agents is None:
+        return None
+    if not isinstance(agents, Mapping) or not agents:
+        raise BadSetting(
+            f"agents is {short_repr(agents)}; expected a dictionary with a vehicle at least, as "
+            f"{AGENTS_EXAMPLE}."
+        )
+    known_names = list(AgentOptions.__annotations__)
+    options = {}
+    for agent, parts in agents.items():
+        if not isinstance(parts, Mapping):
+            raise BadSetting(
+                f"agents[{short_repr(agent)}] is {short_repr(parts)}; expected a dictionary, as "
+                f"{AGENTS_EXAMPLE}."
+            )
+        for name in parts:
+            if name not in known_names:
+                raise BadSetting(
+                    f"agents[{short_repr(agent)}] has no option {short_repr(name)}."
+                    f"{did_you_mean(str(name), known_names)} Known: {', '.join(known_names)}."
+                )
+        options[agent] = EnvironmentOptions(**parts)
+    return options
 
 
 class OuterPolicy:
@@ -146,7 +204,7 @@ def make_agents_task(
     if not specs:
         raise BadSetting(
             f"{plan.benchmark.path}: the benchmark has no <u:environment>; give agents, as "
-            "agents={'bluerov2': {'observation': [...], 'action': [...]}}."
+            f"{AGENTS_EXAMPLE}."
         )
     periods = sorted({spec.period for spec in specs.values()})
     if len(periods) > 1:
@@ -264,10 +322,21 @@ def _read_part(text: str) -> TopicFieldSpec | ImageSpec:
         match = re.fullmatch(r"([1-9]\d{0,3})x([1-9]\d{0,3})", size)
         if match is None and has_size:
             raise BadSetting(
-                f"observation {text!r}: the size is {size!r}; expected 'camera:{content}=128x96'."
+                f"observation {text!r}: the size is {size!r}; expected width and height, each 1 to "
+                f"{MAX_SIZE} px, as '{name}:{content}=128x96'."
             )
         width, height = (None, None) if match is None else (int(match[1]), int(match[2]))
+        if max(width or 1, height or 1) > MAX_SIZE:
+            raise BadSetting(
+                f"observation {text!r}: the size is {size!r}; expected {MAX_SIZE} px at most."
+            )
         return ImageSpec(sensor=name, content=content, width=width, height=height)
+    if not name.startswith("/"):
+        raise BadSetting(
+            f"observation {text[:80]!r}: {word[:60]!r} is no content of an image."
+            f"{did_you_mean(word, IMAGE_CONTENTS)} Known: {', '.join(IMAGE_CONTENTS)}; the topic "
+            "of a field begins with /."
+        )
     return TopicFieldSpec(topic=name, field=field)
 
 

@@ -17,7 +17,7 @@ from .benchmark_env import BenchmarkEnv
 from .frames import FrameSource
 from .make import EnvOptions
 from .row_task import RowsRefused
-from .row_vector_env import RowVectorEnv
+from .row_vector_env import RowVectorEnv, read_vector_options
 from .steppers import NO_IMAGES, StepperName, check_stepper
 from .task import EnvironmentOptions, make_task
 
@@ -68,6 +68,7 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
         frame_size: tuple[int, int] | None = None,
         real_time_factor: float = 1.0,
     ) -> None:
+        mode = read_vector_options(num_envs, autoreset_mode)
         if render_mode == "human" and num_envs > 1:
             raise BadSetting("render_mode='human' shows one environment; expected num_envs=1.")
         make = partial(
@@ -88,7 +89,7 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
             frame_size=frame_size,
             real_time_factor=real_time_factor,
         )
-        super().__init__([make] * num_envs, autoreset_mode=autoreset_mode)
+        super().__init__([make] * num_envs, autoreset_mode=mode)
 
     def reset(
         self,

@@ -12,6 +12,9 @@ from ..errors import BadSetting, did_you_mean
 if TYPE_CHECKING:
     from ..bus import Algorithm
 
+METHODS = "method start(node), or __call__(observation) of a policy"
+"""The methods that make a class a program."""
+
 
 def load_program(name: str, table: Mapping[str, type[Algorithm]]) -> type[Algorithm]:
     """Find the class of a program; a module may be in the current directory.
@@ -40,9 +43,10 @@ def _class_of_file(path: Path, class_name: str) -> type[Algorithm]:
     from ..benchmark.plugin import read_plugin
 
     plugin = read_plugin(path)
+    names = vars(plugin.module())
     classes = {
         name: value
-        for name, value in vars(plugin.module()).items()
+        for name, value in names.items()
         if isinstance(value, type)
         and value.__module__ == plugin.module_name
         and (callable(getattr(value, "start", None)) or is_policy(value))
@@ -50,15 +54,19 @@ def _class_of_file(path: Path, class_name: str) -> type[Algorithm]:
     if class_name in classes:
         return classes[class_name]
     if class_name:
-        raise BadSetting(
-            f"{path}: has no class {class_name!r} with a method start(node)."
-            f"{did_you_mean(class_name, classes)}"
-        )
+        value = names.get(class_name)
+        found = f"has no class {class_name!r}"
+        if isinstance(value, type):
+            found = f"the class {class_name!r} has no {METHODS}"
+        elif value is not None:
+            found = f"{class_name!r} is no class; expected a class with a {METHODS}"
+        known = f" Known: {', '.join(classes)}." if classes else ""
+        raise BadSetting(f"{path}: {found}.{did_you_mean(class_name, classes) or known}")
     if not classes:
-        raise BadSetting(f"{path}: has no class with a method start(node).")
+        raise BadSetting(f"{path}: has no class with a {METHODS}.")
     if len(classes) > 1:
         raise BadSetting(
-            f"{path}: has {len(classes)} classes with a method start(node): {', '.join(classes)}; "
+            f"{path}: has {len(classes)} classes with a {METHODS}: {', '.join(classes)}; "
             f"expected one of them by name, as {path}:{next(iter(classes))}."
         )
     return next(iter(classes.values()))

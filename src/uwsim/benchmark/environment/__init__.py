@@ -12,10 +12,11 @@ from .channels import CHANNELS
 from .observer import Observer, bind_images
 from .relations import ContactSpec, RelativePoseSpec
 from .reward import REWARD_NAMES, RewardFunction
-from .spec import ActionSpec, EnvironmentSpec, ImageSpec, TopicFieldSpec
+from .spec import MAX_SIZE, ActionSpec, EnvironmentSpec, ImageSpec, TopicFieldSpec
 
 __all__ = [
     "CHANNELS",
+    "MAX_SIZE",
     "REWARD_NAMES",
     "ActionSpec",
     "Actuator",

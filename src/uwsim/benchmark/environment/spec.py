@@ -100,7 +100,7 @@ class ActionSpec(Spec):
     joints, separated by blanks; absent for thrusters. Other axes are 0."""
     limits: Numbers = element(default=())
     """The command for an action of 1, a number for each axis, or one for all
-    [m/s, rad/s, N, N m, rad or 1]; by default 1."""
+    [m/s, rad/s, N, N m, rad or 1], above 0; by default 1."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -277,7 +277,10 @@ class EnvironmentSpec(Spec):
                     f"<limits> of {action.topic!r} is {list(action.limits)}; expected numbers "
                     f"above 0, at most {MAX_COMMAND:g}",
                 )
-            n_axes, n_limits = len(action.axes.split()), len(action.limits)
+            axes = action.axes.split()
+            if duplicates := [axis for j, axis in enumerate(axes) if axis in axes[:j]]:
+                yield "action", f"<axes> names {duplicates[0][:60]!r} twice; expected once"
+            n_axes, n_limits = len(axes), len(action.limits)
             if n_limits > 1 and n_axes and n_limits != n_axes:
                 yield (
                     "action",
