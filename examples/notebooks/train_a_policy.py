@@ -204,8 +204,8 @@ print(uwsim.compare(FOLDER / "trained.result", FOLDER / "p.result"))
 # ```console
 # $ cd examples/learning
 # $ python ppo.py uwsim/StationKeeping-v0    # writes policy.npz, which policy.py:Policy reads
-# $ uwsim bench station-keeping --algorithm policy.py:Policy --repeat 6 --out trained.result
-# $ uwsim bench station-keeping --algorithm position-p --repeat 6 --out p.result
+# $ uwsim bench station-keeping --algorithm policy.py:Policy --repeat 10 --out trained.result
+# $ uwsim bench station-keeping --algorithm position-p --repeat 10 --out p.result
 # $ uwsim compare trained.result p.result
 # ```
 #

@@ -10,7 +10,8 @@
 
 `make_env` makes the environment of any benchmark file, and `make_parallel_env` that of several
 vehicles, with PettingZoo. `batch` steps rows of free vehicles in
-compiled code. Gymnasium and PettingZoo are the extra ``envs``: ``pip install 'uwsim[envs]'``.
+compiled code. Gymnasium and PettingZoo are the extra ``envs``: ``scripts/setup envs`` in a
+checkout.
 """
 
 from __future__ import annotations

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from .parallel_env import ParallelBenchmarkEnv
     from .task import AgentOptions
 
+INSTALL = "scripts/setup envs in a checkout, else pip install with the extra [envs]"
+"""How the packages of the environments are installed."""
+
 
 class EnvOptions(TypedDict, total=False):
     """The options of an environment; `BenchmarkEnv` describes them."""
@@ -66,7 +69,7 @@ def make_env(
         UwsimError: a file, a name or an option is invalid.
     """
     if importlib.util.find_spec("gymnasium") is None:
-        raise MissingExtra("Environments need Gymnasium: pip install 'uwsim[envs]'.")
+        raise MissingExtra(f"Environments need Gymnasium: {INSTALL}.")
     from .benchmark_env import BenchmarkEnv
 
     return BenchmarkEnv(benchmark, stepper=stepper, **options)
@@ -87,9 +90,7 @@ def make_parallel_env(
         UwsimError: a file, a name or an option is invalid.
     """
     if importlib.util.find_spec("pettingzoo") is None:
-        raise MissingExtra(
-            "Environments of several vehicles need PettingZoo: pip install 'uwsim[envs]'."
-        )
+        raise MissingExtra(f"Environments of several vehicles need PettingZoo: {INSTALL}.")
     from .parallel_env import ParallelBenchmarkEnv
 
     return ParallelBenchmarkEnv(benchmark, **options)

@@ -55,13 +55,13 @@ def _class_of_file(path: Path, class_name: str) -> type[Algorithm]:
         return classes[class_name]
     if class_name:
         value = names.get(class_name)
-        found = f"has no class {class_name!r}"
+        fault = f"has no class {class_name!r}"
         if isinstance(value, type):
-            found = f"the class {class_name!r} has no {METHODS}"
+            fault = f"the class {class_name!r} has no {METHODS}"
         elif value is not None:
-            found = f"{class_name!r} is no class; expected a class with a {METHODS}"
-        known = f" Known: {', '.join(classes)}." if classes else ""
-        raise BadSetting(f"{path}: {found}.{did_you_mean(class_name, classes) or known}")
+            fault = f"{class_name!r} is no class; expected a class with a {METHODS}"
+        choices = f" Known: {', '.join(classes)}." if classes else ""
+        raise BadSetting(f"{path}: {fault}.{did_you_mean(class_name, classes) or choices}")
     if not classes:
         raise BadSetting(f"{path}: has no class with a {METHODS}.")
     if len(classes) > 1:

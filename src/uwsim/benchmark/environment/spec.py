@@ -115,8 +115,8 @@ class EnvironmentSpec(Spec):
     """The measure that has the desired position: a ``<positionError>`` or a
     ``<u:trackingError>``; or the path: a ``<pathFollowing>`` with ``<u:path>``."""
     observation: str = ""
-    """The observed quantities of the vehicle's state, separated by blanks
-    (`uwsim.benchmark.environment.channels`)."""
+    """The observed quantities of the vehicle's state, separated by blanks, as ``positionError
+    heading``; the page environments has a table of them."""
     relative_pose: tuple[RelativePoseSpec, ...] = ()
     """The observed poses of bodies in the frames of others, which follow the state."""
     contact: tuple[ContactSpec, ...] = ()
