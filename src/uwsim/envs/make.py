@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .task import AgentOptions
 
 INSTALL = "scripts/setup envs in a checkout, else pip install with the extra [envs]"
-"""How the packages of the environments are installed."""
+"""The ways to install the packages of the environments."""
 
 
 class EnvOptions(TypedDict, total=False):
