@@ -36,7 +36,7 @@ def test_every_measure_has_a_section_and_a_line_at_the_top(name: str) -> None:
     ("name", "measure"),
     [
         ("collision", CollisionSpec(name="c", target="v").bind(WORLD)),
-        ("pathFollowing", PathFollowingSpec(name="p", target="v").bind(WORLD)),
+        ("pathFollowing", PathFollowingSpec(name="p", target="v", end_share=0.9).bind(WORLD)),
         (
             "reconstruction3D",
             Reconstruction3DSpec(
