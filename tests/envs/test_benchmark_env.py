@@ -401,3 +401,16 @@ def test_no_episode_runs_after_a_reset_that_failed() -> None:
     env.step(np.zeros(8))
     assert info["seed"] == 2
     env.close()
+
+
+@pytest.mark.slow
+def test_a_benchmark_names_the_wrong_number_of_a_policy(tmp_path: Path) -> None:
+    class Policy:
+        def __call__(self, observation: np.ndarray) -> np.ndarray:
+            return np.array([0.5, np.inf, *[0.0] * 6])
+
+    text = (Path(uwsim.__file__).parent / "data/benchmarks/station-keeping.xml").read_text()
+    file = tmp_path / "short.xml"
+    file.write_text(re.sub("<interval>[0-9]+</interval>", "<interval>0.1</interval>", text))
+    with pytest.raises(UwsimError, match="has inf; expected 8 finite numbers from -1 to 1"):
+        uwsim.bench(file, algorithm=Policy, out=tmp_path / "out")

@@ -340,3 +340,23 @@ def test_rows_step_only_after_a_reset_and_name_wrong_options() -> None:
     rows.close()
     with pytest.raises(UnknownName, match="No camera or view is called 'nope'"):
         make_rows("uwsim/Circle-v0", 1, camera="nope")
+
+
+@pytest.mark.parametrize("stepper", ["engine", "rows"])
+def test_a_vector_without_resets_names_its_mistakes(stepper: str) -> None:
+    envs = gymnasium.make_vec(
+        "uwsim/StationKeeping-v0",
+        num_envs=2,
+        stepper=stepper,
+        period=30.0,
+        autoreset_mode="Disabled",
+    )
+    envs.reset(seed=1)
+    wrong_actions = np.zeros((2, 8))
+    wrong_actions[1, 0] = np.nan
+    with pytest.raises(BadSetting, match=r"The array of actions has nan at \[1, 0\]"):
+        envs.step(wrong_actions)
+    assert envs.step(np.zeros((2, 8)))[3].all()  # no row was stepped before
+    with pytest.raises(BadSetting, match="An episode is over"):
+        envs.step(np.zeros((2, 8)))
+    envs.close()

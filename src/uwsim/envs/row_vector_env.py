@@ -31,6 +31,8 @@ from .levels import Value, check_options, read_choices
 from .steppers import ROWS
 
 Flags = npt.NDArray[np.bool_]
+EPISODE_IS_OVER = "An episode is over; call reset(options={'reset_mask': ...})."
+"""The error of a step without automatic resets."""
 
 
 def read_vector_options(num_envs: object, autoreset_mode: object) -> AutoresetMode:
@@ -127,7 +129,7 @@ class RowVectorEnv(VectorEnv):  # type: ignore[misc]  # mypy skips gymnasium
         infos: dict[str, Any] = {}
         if resets.any():
             if self._mode is AutoresetMode.DISABLED:
-                raise BadSetting("An episode is over; call reset(options={'reset_mask': ...}).")
+                raise BadSetting(EPISODE_IS_OVER)
             self._begin_again(resets)
             infos = self._infos(resets)
         self._episodes.step(values, ~resets)

@@ -13,11 +13,12 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from ..editing import Benchmark, Scene
 from ..errors import BadSetting
 from ..messages.observation import Observation
+from .actions import read_action_values
 from .benchmark_env import BenchmarkEnv
 from .frames import FrameSource
 from .make import EnvOptions
 from .row_task import RowsRefused
-from .row_vector_env import RowVectorEnv, read_vector_options
+from .row_vector_env import EPISODE_IS_OVER, RowVectorEnv, read_vector_options
 from .steppers import NO_IMAGES, StepperName, check_stepper
 from .task import EnvironmentOptions, make_task
 
@@ -110,6 +111,14 @@ class BenchmarkVectorEnv(SyncVectorEnv):  # type: ignore[misc]  # mypy skips gym
             if is_reset:
                 row.unwrapped.kept_options = kept_options
         result: tuple[Any, dict[str, Any]] = super().reset(seed=seed, options=options)
+        return result
+
+    def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
+        """Take a step with each row; wrong actions change no row."""
+        values = read_action_values(actions, self.action_space.shape, "The array of actions")
+        if self.autoreset_mode is AutoresetMode.DISABLED and self._autoreset_envs.any():
+            raise BadSetting(EPISODE_IS_OVER)
+        result: tuple[Any, Any, Any, Any, dict[str, Any]] = super().step(values)
         return result
 
     @property

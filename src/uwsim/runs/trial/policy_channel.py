@@ -135,10 +135,13 @@ class PolicyChannel:
             self._publish(Float64MultiArray(layout=self._layout, data=observation))
 
     def _check(self, message: Float64MultiArray) -> None:
-        if message.data.shape != (self.actuator.size,) or not np.isfinite(message.data).all():
+        data, n = message.data, self.actuator.size
+        has_size = data.shape == (n,)
+        if not has_size or not np.isfinite(data).all():
+            wrong_part = data[~np.isfinite(data)][0] if has_size else f"{data.size} values"
             raise BadMessage(
-                f"A message on {self._action_topic!r} has {message.data.size} values; expected "
-                f"{self.actuator.size} finite numbers from -1 to 1."
+                f"A message on {self._action_topic!r} has {wrong_part}; expected {n} finite "
+                "numbers from -1 to 1 (others are clipped)."
             )
 
     def _receive(self, message: Float64MultiArray) -> None:
