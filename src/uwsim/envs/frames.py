@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Intrinsics, Pose
+from ..base.numerics.linear import length
 from ..errors import BadSetting, UnknownName, short_repr
 from ..scene.sizes import find_size_error
 from ..scene.spec import SceneSpec
@@ -147,5 +148,5 @@ class FrameSource:
         self._last_time = simulation.time
         share = 1.0 - math.exp(-time_step / TURNING_TIME)
         direction = self._bow_direction + share * (bow_direction - self._bow_direction)
-        self._bow_direction = direction / max(float(np.linalg.norm(direction)), 1e-9)
+        self._bow_direction = direction / max(length(direction), 1e-9)
         return chase_pose(position, self._bow_direction, self._radius)

@@ -83,7 +83,7 @@ class Focus:
     @property
     def radius(self) -> float:
         """The radius: half the diagonal of the bounding box of the corners [m]."""
-        return 0.5 * float(np.linalg.norm(np.ptp(self.corners, axis=0)))
+        return 0.5 * length(np.ptp(self.corners, axis=0))
 
 
 def viewer_view(simulation: Simulation, spec: ViewerCameraSpec, size: Size) -> View:
@@ -163,7 +163,7 @@ def chase_pose(position: Array, bow_direction: Array, radius: float) -> Pose:
     """
     eye = position - CHASE_DISTANCE * radius * bow_direction + CHASE_HEIGHT * radius * UP
     view = position + 0.5 * radius * bow_direction - eye
-    return Pose(eye, camera_axes(view / np.linalg.norm(view), UP))
+    return Pose(eye, camera_axes(view / length(view), UP))
 
 
 def chase_radius(simulation: Simulation, focus: Focus) -> float:

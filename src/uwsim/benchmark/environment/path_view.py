@@ -47,8 +47,10 @@ class PathView:
 
     def read(self, world_from_base: Pose) -> Array:
         """Return error, direction and points ahead, in base axes, (`SIZE`,) [m, 1]."""
-        frame = Pose.identity() if self._frame is None else self._frame.world_from_body
-        frame_from_base = frame.inverse() @ world_from_base
+        frame_from_base = world_from_base
+        if self._frame is not None:
+            frame_from_world = self._frame.world_from_body.inverse()
+            frame_from_base = frame_from_world @ world_from_base
         place = frame_from_base.position
         segment = -1
         while segment != self._segment:  # the vehicle may have passed several
