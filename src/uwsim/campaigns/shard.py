@@ -17,13 +17,8 @@ from ..errors import BadSetting
 from ..results import journal
 from ..results.directory import FILE_NAMES, FOLDERS, check_resume
 from ..runs.control_run import control_run_of, needs_control_run
-from ..runs.execute import Execution, Progress, begin_runs
-from ..runs.executors.executor import run_each
-from ..runs.failed_algorithms import (
-    raise_if_all_failed,
-    raise_if_process_ended,
-    raise_if_simulation_failed,
-)
+from ..runs.execute import Execution, Progress, begin_runs, run_trials
+from ..runs.failed_algorithms import raise_if_rows_failed
 from ..runs.run import Run
 from ..runs.sealing import is_foreign
 
@@ -132,17 +127,13 @@ def execute_shard(
     with begin_runs(execution, shared_directory(out, results)):
         for run in runs:
             _check_same_run(run)
-        total = sum(len(trial.levels) for run in runs for trial in run.trials())
-        n_finished = sum(run.n_finished() for run in runs)
-        title = f"{execution.title}, shard {shard}"
-        with progress(title, total, n_finished) as on_level:
-            outcome = run_each(runs, execution.executor, on_level=on_level)
+        outcome = run_trials(
+            runs, execution.executor, f"{execution.title}, shard {shard}", progress
+        )
     for _, error in outcome.failures:
         raise error
     n = len(execution.runs)
-    raise_if_simulation_failed(runs[:n], outcome.results[:n])
-    raise_if_process_ended(runs[:n], outcome.results[:n])
-    raise_if_all_failed(runs[:n], outcome.results[:n])
+    raise_if_rows_failed(runs[:n], outcome.results[:n])
     return runs
 
 

@@ -24,11 +24,7 @@ from .control_run import CONTROL_ALGORITHM, control_run_of, needs_control_run
 from .executors.background import JobRunner
 from .executors.choose import executor_of
 from .executors.executor import Executor, OnLevel, Outcome, run_each
-from .failed_algorithms import (
-    raise_if_all_failed,
-    raise_if_process_ended,
-    raise_if_simulation_failed,
-)
+from .failed_algorithms import raise_if_rows_failed
 from .foreign_code import announce_code
 from .planning.make_plan import make_plan, print_scene_warnings
 from .planning.plan import Plan
@@ -212,7 +208,7 @@ def execute(
     runs = execution.runs
     with begin_runs(execution, directory):
         if open_runner is None:
-            outcome = _run(execution, callbacks.progress)
+            outcome = run_trials(runs, execution.executor, execution.title, callbacks.progress)
             _save_provenances(execution, outcome)
         else:
             with open_runner() as runner:
@@ -225,18 +221,16 @@ def execute(
                     callbacks.on_report(run, result)
         for _, error in outcome.failures:
             raise error
-        raise_if_simulation_failed(runs, outcome.results)
-        raise_if_process_ended(runs, outcome.results)
-        raise_if_all_failed(runs, outcome.results)
+        raise_if_rows_failed(runs, outcome.results)
         return outcome.results
 
 
-def _run(execution: Execution, progress: Progress) -> Outcome:
-    runs = execution.runs
-    total = sum(len(trial.levels) for run in runs for trial in run.plan.trials())
+def run_trials(runs: Sequence[Run], executor: Executor, title: str, progress: Progress) -> Outcome:
+    """Run the unfinished trials of some runs, with a display of the finished levels."""
+    total = sum(len(trial.levels) for run in runs for trial in run.trials())
     n_finished = sum(run.n_finished() for run in runs)
-    with progress(execution.title, total, n_finished) as on_level:
-        return run_each(runs, execution.executor, on_level=on_level)
+    with progress(title, total, n_finished) as on_level:
+        return run_each(runs, executor, on_level=on_level)
 
 
 def _run_with_control_run(execution: Execution, runner: JobRunner, progress: Progress) -> Outcome:
@@ -254,7 +248,7 @@ def _run_with_control_run(execution: Execution, runner: JobRunner, progress: Pro
         runner, must_wait = runner.local_runner(), True
     if control_runs and not must_wait:
         runner.submit(control_runs[0])
-    outcome = _run(execution, progress)
+    outcome = run_trials(runs, execution.executor, execution.title, progress)
     if control_runs and outcome.finished_runs(runs):
         if must_wait:
             runner.submit(control_runs[0])

@@ -12,6 +12,17 @@ from .trial.status import SIMULATION_ERROR, ended_its_process
 ALGORITHM_ERROR = "algorithm error"
 
 
+def raise_if_rows_failed(runs: Sequence[Run], results: Sequence[Result]) -> None:
+    """Raise an error if rows of finished runs failed in a way that their user has to know.
+
+    Raises:
+        RunFailed: a simulation failed, an algorithm ended its process, or failed in every row.
+    """
+    raise_if_simulation_failed(runs, results)
+    raise_if_process_ended(runs, results)
+    raise_if_all_failed(runs, results)
+
+
 def raise_if_simulation_failed(runs: Sequence[Run], results: Sequence[Result]) -> None:
     """Raise an error if the simulation of a row failed; all files are written by then.
 
