@@ -30,7 +30,7 @@ from ..results.stored.stored_shapes import HEAD
 from ..runs.control_run import control_run_of, needs_control_run
 from ..runs.execute import Execution
 from ..runs.executors.executor import Executor, OnLevel, run_all
-from ..runs.prepare import prepare_run
+from ..runs.prepare import prepare_runs
 from ..runs.run import Run, StoredPair
 from ..verify.recorded_plan import FileOverrides, check_inputs, plan_of
 
@@ -69,7 +69,17 @@ def read_campaign(directory: Path, overrides: FileOverrides) -> Campaign:
         raise ResultError(
             f"{directory}: trials are not finished: all of {names}. {_hint(directory)}"
         )
-    return Campaign(directory=directory, runs=tuple(_read_run(f, overrides) for f in folders))
+    heads = [_read_head(folder) for folder in folders]
+    plans = [
+        plan_of(Result(inputs=inputs, run=info, columns=(), rows=()), folder, overrides)
+        for folder, (inputs, info) in zip(folders, heads, strict=True)
+    ]
+    subfolders = [] if folders == [directory] else [folder.name for folder in folders]
+    runs = []
+    for run, (inputs, info) in zip(prepare_runs(plans, directory, subfolders), heads, strict=True):
+        check_inputs(inputs, run.inputs)
+        runs.append(replace(run, inputs=inputs, renderer=info.renderer or run.renderer))
+    return Campaign(directory=directory, runs=tuple(runs))
 
 
 def _result_folders(directory: Path) -> list[Path]:
@@ -86,17 +96,12 @@ def _journals(folder: Path) -> list[Path]:
     return sorted((folder / journal.FOLDER).glob("*.jsonl"))
 
 
-def _read_run(folder: Path, overrides: FileOverrides) -> Run:
-    """Return the run of a folder, from the first line of its first journal."""
+def _read_head(folder: Path) -> tuple[Inputs, RunInfo]:
+    """Return the inputs and the run of a folder, from the first line of its first journal."""
     path = _journals(folder)[0]
     head = journal.head_of(path)
     HEAD(head, str(path))
-    inputs, info = Inputs.from_dict(head["inputs"]), RunInfo.from_dict(head["run"])
-    stored_result = Result(inputs=inputs, run=info, columns=(), rows=())
-    plan = plan_of(stored_result, folder, overrides)
-    run = prepare_run(plan, folder)
-    check_inputs(inputs, run.inputs)
-    return replace(run, inputs=inputs, renderer=info.renderer or run.renderer)
+    return Inputs.from_dict(head["inputs"]), RunInfo.from_dict(head["run"])
 
 
 def read_trials(campaign: Campaign) -> list[list[StoredPair]]:
