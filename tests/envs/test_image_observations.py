@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import gc
 import re
-import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,10 +12,10 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium.spaces import Box, Dict
-from gymnasium.utils.env_checker import check_env
 from gymnasium.wrappers import FrameStackObservation, GrayscaleObservation
 
 import uwsim
+from tests.support.random_steps import check_without_warnings
 from uwsim.bus import Node
 from uwsim.envs import make_env
 from uwsim.errors import BadSetting, BenchmarkError, UnknownName
@@ -156,9 +155,7 @@ def test_gymnasium_finds_nothing_wrong_with_images(benchmark: Path) -> None:
         (12, 16, 1),
         np.float32,
     )
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        check_env(env, skip_render_check=True)
+    check_without_warnings(env)
     env.close()
 
 

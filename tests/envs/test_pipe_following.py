@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
-
 import gymnasium
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import check_env
 
 import uwsim
+from tests.support.random_steps import check_without_warnings, take_random_steps
 from uwsim.envs import BenchmarkEnv, make_env
 from uwsim.errors import BadSetting
 
@@ -17,26 +15,15 @@ LEVEL = {"current": 0.1, "beamAttenuation": 0.5}
 
 
 def rollout(env: BenchmarkEnv, n: int) -> bytes:
-    """Take random steps, with a new episode after each end; return all numbers."""
-    observation, _ = env.reset(seed=2, options={"level": LEVEL})
-    env.action_space.seed(2)
-    parts = [observation.tobytes()]
-    for _ in range(n):
-        observation, reward, terminated, truncated, _ = env.step(env.action_space.sample())
-        assert np.isfinite(observation).all()
-        assert np.isfinite(reward)
-        parts += [observation.tobytes(), np.float64(reward).tobytes()]
-        if terminated or truncated:
-            observation, _ = env.reset(seed=3, options={"level": LEVEL})
-    return b"".join(parts)
+    return take_random_steps(
+        env, n, options={"level": LEVEL}, next_reset={"seed": 3, "options": {"level": LEVEL}}
+    )
 
 
 @pytest.mark.slow
 def test_gymnasium_finds_nothing_wrong_with_the_pipe() -> None:
     env = make_env("pipe-following")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        check_env(env, skip_render_check=True)
+    check_without_warnings(env)
     env.close()
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,9 +9,9 @@ import gymnasium
 import mujoco
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import check_env
 
 import uwsim
+from tests.support.random_steps import check_without_warnings, take_random_steps
 from uwsim.base.geometry import Pose
 from uwsim.benchmark.measures import MEASURES, GraspSpec, ReachSpec
 from uwsim.envs import BenchmarkEnv, make_env
@@ -33,21 +32,6 @@ def slices_of(env: BenchmarkEnv) -> dict[str, slice]:
     names, sizes = zip(*env.layout, strict=True)
     ends = np.cumsum(sizes).tolist()
     return {name: slice(end - n, end) for name, n, end in zip(names, sizes, ends, strict=True)}
-
-
-def rollout(env: BenchmarkEnv, n: int, seed: int = 2) -> bytes:
-    """Take random steps, with a new episode after each end; return all numbers."""
-    observation, _ = env.reset(seed=seed)
-    env.action_space.seed(seed)
-    parts = [observation.tobytes()]
-    for _ in range(n):
-        observation, reward, terminated, truncated, _ = env.step(env.action_space.sample())
-        assert np.isfinite(observation).all()
-        assert np.isfinite(reward)
-        parts += [observation.tobytes(), np.float64(reward).tobytes()]
-        if terminated or truncated:
-            observation, _ = env.reset()
-    return b"".join(parts)
 
 
 def base_from_tool(joints: np.ndarray) -> Pose:
@@ -83,17 +67,13 @@ def base_from_tool(joints: np.ndarray) -> Pose:
 
 
 def test_gymnasium_finds_nothing_wrong_with_reach(reach: BenchmarkEnv) -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        check_env(reach, skip_render_check=True)
+    check_without_warnings(reach)
 
 
 @pytest.mark.slow
 def test_gymnasium_finds_nothing_wrong_with_grasp() -> None:
     env = gymnasium.make("uwsim.envs:uwsim/Grasp-v0")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        check_env(env.unwrapped, skip_render_check=True)
+    check_without_warnings(env.unwrapped)
     env.close()
 
 
@@ -179,14 +159,14 @@ def test_the_measures_of_an_episode_are_those_of_the_benchmark(
 
 
 def test_random_steps_give_the_same_finite_numbers_twice(reach: BenchmarkEnv) -> None:
-    assert rollout(reach, 15) == rollout(reach, 15)
+    assert take_random_steps(reach, 15) == take_random_steps(reach, 15)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("task", ["reach", "grasp"])
 def test_two_thousand_random_steps_give_finite_numbers(task: str) -> None:
     env = make_env(task, period=0.02)
-    rollout(env, 2000)
+    take_random_steps(env, 2000)
     env.close()
 
 
