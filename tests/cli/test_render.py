@@ -128,6 +128,8 @@ COVERED = {
     ("docking-scene", "orbit"): 0.004,
     ("pier-waves-scene", "orbit"): 0.005,
     ("pier-waves-scene", "top"): 0.002,
+    ("pipe-scene", "orbit"): 0.002,
+    ("pipe-scene", "top"): 0.003,
     ("wreck-physical-scene", "top"): 0.005,
 }
 """The least shares of vehicles that are far away or that a pier or a wreck covers; else 1 %."""
