@@ -141,3 +141,17 @@ def test_two_shards_of_two_algorithms_with_a_control_run_are_merged(
     assert (tmp_path / "shared" / "esm" / "control" / "result.json").exists()
     assert main([*command, "--seed", "5", "--out", "shared", "--shard", "1/2"]) == 2
     assert "seed is 5 now, was 0" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_a_merge_of_rows_that_all_failed_ends_with_3_as_the_run_would(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_benchmark(tmp_path, "0.1")
+    command = ["bench", "short.xml", "--algorithm", "tests.support.failing:RaisedError"]
+    main([*command, "--out", "shared", "--shard", "1/1"])
+    capsys.readouterr()
+    assert main(["merge", "shared", "--no-report"]) == 3
+    assert "Every row ended in 'algorithm error'" in capsys.readouterr().err
+    assert (tmp_path / "shared" / "result.json").exists()

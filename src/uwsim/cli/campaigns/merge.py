@@ -40,11 +40,13 @@ def merge(
 
     result.json, tables and logs have the bytes of `uwsim bench` on one machine. Trials that are
     not finished are listed, and nothing is written. Shards of other files, seeds or versions are
-    refused. Files are found by name and recorded hash, as by `uwsim verify`.
+    refused. Files are found by name and recorded hash, as by `uwsim verify`. Exit status 3: a
+    simulation failed, or an algorithm in every row, as of `uwsim bench`.
     """
     from ...campaigns.merge import merge as write_results
     from ...campaigns.merge import read_campaign, save_provenances
     from ...runs.execute import Execution
+    from ...runs.failed_algorithms import raise_if_rows_failed
 
     executor = worker_options.executor()
     shared_runs = read_campaign(campaign, file_options.overrides())
@@ -63,6 +65,7 @@ def merge(
             output.print_table(run, result)
             report(run.out)
             output.print_written(run, result, has_report=not no_report)
+        raise_if_rows_failed(shared_runs.runs, results)
 
 
 def _open_progress(stack: ExitStack, worker_options: WorkerOptions, run: Run) -> OnLevel:
