@@ -16,6 +16,7 @@ from ..model.parts import Part
 from ..scene.mounts import camera_axes
 from ..scene.object import TERRAIN
 from ..scene.sim_params import ViewerCameraSpec
+from .scenery.refracted_points import refract_points
 from .simulation import Simulation
 
 Size = tuple[int, int]
@@ -45,6 +46,8 @@ MAX_CHASE_RADIUS = 2.0
 """The greatest radius of the focus for the chase camera [m]."""
 VISIBILITY_IMAGE_SIZE: Size = (96, 72)
 """The width and height of the images that measure the visible share [px]."""
+N_REFRACTIONS = 12
+"""The number of times that a view of refracted corners is framed anew."""
 NEAR_PLANE = 0.05
 """The distance of the near plane [m]."""
 UP = np.array([0.0, 0.0, 1.0])
@@ -129,7 +132,8 @@ def top_view(simulation: Simulation, size: Size) -> View:
     top = simulation.world.model.scene.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
     if length(top) < 0.5:
         top = np.array([0.0, 1.0, 0.0])
-    return View(_frame_focus(focus, camera_axes(-UP, top), intrinsics), intrinsics, is_clear=True)
+    pose = _frame_focus(simulation, focus, camera_axes(-UP, top), intrinsics)
+    return View(pose, intrinsics, is_clear=True)
 
 
 def orbit_view(simulation: Simulation, size: Size) -> View:
@@ -141,9 +145,8 @@ def orbit_view(simulation: Simulation, size: Size) -> View:
     focus, intrinsics = find_focus(simulation), _intrinsics_for(size, FIELD_OF_VIEW)
     best_pose, best_share = None, -1.0
     for elevation, bearing in itertools.product(ORBIT_ELEVATIONS, ORBIT_BEARINGS):
-        pose = _frame_focus(
-            focus, _camera_axes(focus.bow_direction, bearing, elevation), intrinsics
-        )
+        axes = _camera_axes(focus.bow_direction, bearing, elevation)
+        pose = _frame_focus(simulation, focus, axes, intrinsics)
         share = _visible_share(simulation, focus, pose)
         if share > best_share + 0.01:
             best_pose, best_share = pose, share
@@ -254,9 +257,27 @@ def _visible_share(simulation: Simulation, focus: Focus, world_from_camera: Pose
     return float(np.mean(shares)) if shares else 0.0
 
 
-def _frame_focus(focus: Focus, axes: Array, intrinsics: Intrinsics) -> Pose:
+def _frame_focus(simulation: Simulation, focus: Focus, axes: Array, intrinsics: Intrinsics) -> Pose:
+    """Return the nearest camera pose with these axes in W at which all corners are in the image.
+
+    A camera above physical water sees what is below enlarged, by refraction.
+    """
+    pose = _frame_corners(focus.corners, focus.centre, axes, intrinsics)
+    ocean_state = simulation.world.model.scene.ocean_state
+    if ocean_state.water is None:
+        return pose
+    surface_height = ocean_state.ocean_surface_height
+    for _ in range(N_REFRACTIONS):
+        if pose.position[2] <= surface_height:
+            break
+        corners = refract_points(pose.position, focus.corners, surface_height)
+        pose = _frame_corners(corners, focus.centre, axes, intrinsics)
+    return pose
+
+
+def _frame_corners(corners: Array, centre: Array, axes: Array, intrinsics: Intrinsics) -> Pose:
     """Return the nearest camera pose with these axes in W at which all corners are in the image."""
-    offsets = product(focus.corners - focus.centre, axes)  # (n, 3): right, up, towards the eye [m]
+    offsets = product(corners - centre, axes)  # (n, 3): right, up, towards the eye [m]
     halves = (
         np.array([intrinsics.width / intrinsics.fx, intrinsics.height / intrinsics.fy])
         * 0.5
@@ -270,7 +291,7 @@ def _frame_focus(focus: Focus, axes: Array, intrinsics: Intrinsics) -> Pose:
     )  # (2,) [m]
     distance = float((0.5 * (upper + lower)).max())
     eye = np.array([*(0.5 * (upper - lower) * halves), max(distance, 0.5)])
-    return Pose(focus.centre + product(axes, eye), axes)
+    return Pose(centre + product(axes, eye), axes)
 
 
 def _camera_axes(bow_direction: Array, bearing: float, elevation: float) -> Array:
