@@ -8,7 +8,7 @@ from uwsim.assets.mesh import Mesh
 
 from .parts import Part
 from .scenery import arm5e as smooth_arm5e
-from .scenery import chain, nets, pier, pipes, pool, rocks, seabed, vehicles, wreck
+from .scenery import cable, chain, nets, pier, pipes, pool, rocks, seabed, vehicles, wreck
 from .stand_ins import (
     amphora,
     arm5e,
@@ -102,6 +102,7 @@ SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
         "objects/rock4": rocks.rock4,
         "objects/rock5": rocks.rock5,
     },
+    "objects/cable": {"objects/cable": cable.cable},
     "objects/chain": {"objects/chain": chain.chain},
     "objects/nets": {"objects/net": nets.net, "objects/cage_panel": nets.cage_panel},
     "objects/pier": {"objects/pier": pier.pier},

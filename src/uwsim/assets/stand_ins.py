@@ -88,6 +88,7 @@ STAND_INS: dict[str, StandIn] = {
 """The replacements of UWSim's models in alphabetical order, one line each."""
 
 SCENERY: dict[str, StandIn] = {
+    "objects/cable": _scenery("objects/cable"),
     "objects/cage_panel": _scenery("objects/nets"),
     "objects/chain": _scenery("objects/chain"),
     "objects/net": _scenery("objects/nets"),

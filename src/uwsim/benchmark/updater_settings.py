@@ -8,15 +8,23 @@ changed.
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 from typing import Any
 
-from ..errors import BadSetting, did_you_mean
-from ..scene.settings import Step, ValueLocation, locate, overlaps
+from ..errors import BadSetting, Diagnostic, did_you_mean
+from ..scene.settings import Step, ValueLocation, check_effect, locate, overlaps
 from ..scene.spec import SceneSpec
 from ..scene.variation import Draw, apply_variations, draw
-from ..schema import fields_of
+from ..schema import Diagnostics, fields_of
 from .spec import BenchmarkSpec
-from .updaters import UPDATERS, SceneUpdaterSpec, chain, interval
+from .updaters import (
+    UPDATERS,
+    Level,
+    SceneUpdaterSpec,
+    SettingUpdaterSpec,
+    chain,
+    interval,
+)
 from .updaters import levels as levels_of
 
 
@@ -109,3 +117,58 @@ def benchmark_of_seed(benchmark: BenchmarkSpec, seed: int) -> BenchmarkSpec:
 def updater_draws(benchmark: BenchmarkSpec, seed: int) -> tuple[Draw, ...]:
     """Return the paths and values that ``u:vary`` draws for a seed."""
     return draw(benchmark, seed, find=locate_in_benchmark)
+
+
+def scene_of_level(scene: SceneSpec, updater: SceneUpdaterSpec, level: Level) -> SceneSpec:
+    """Return the scene with the values that each ``<u:settingUpdater>`` has in a level.
+
+    Args:
+        scene: the scene of the benchmark.
+        updater: the outermost updater.
+        level: the level.
+
+    Raises:
+        BadSetting: a path is unknown, its value is not one number, or ``<u:vary>`` draws it.
+    """
+    for spec, (_, value) in zip(chain(updater), level.values, strict=True):
+        if isinstance(spec, SettingUpdaterSpec):
+            scene = _set_number(scene, spec.path, value)
+    return scene
+
+
+def _set_number(scene: SceneSpec, path: str, value: float) -> SceneSpec:
+    location = locate(scene, path)
+    check_effect(location)
+    if not location.is_number:
+        raise BadSetting(f"it is {location.kind}; expected the path of one number.")
+    if any(overlaps(locate(scene, item.path), location) for item in scene.vary):
+        raise BadSetting("<u:vary> of the scene draws it; remove one of the two.")
+    text = str(round(value)) if location.is_integer and float(value).is_integer() else repr(value)
+    new_scene: SceneSpec = location.with_value(text)
+    return new_scene
+
+
+def check_scene_settings(
+    benchmark: BenchmarkSpec, scene: SceneSpec, *, is_independent: bool
+) -> list[Diagnostic]:
+    """Return the errors of each ``<u:settingUpdater>``: its path and values, and dependent levels.
+
+    Args:
+        benchmark: the benchmark.
+        scene: its scene.
+        is_independent: true if the levels are independent.
+    """
+    diagnostics = Diagnostics(Path(benchmark.path))
+    for updater in chain(benchmark.scene_updater):
+        if not isinstance(updater, SettingUpdaterSpec):
+            continue
+        if not is_independent:
+            diagnostics.error(
+                updater, 'its levels open the scene anew; expected <benchmark u:mode="independent">'
+            )
+        try:
+            for value in updater.values():
+                _set_number(scene, updater.path, value)
+        except BadSetting as error:
+            diagnostics.error(updater, f"<path> {updater.path}: {error}".rstrip("."))
+    return diagnostics.to_list()

@@ -11,6 +11,7 @@ import numpy as np
 from ..algorithms import load_algorithm
 from ..benchmark.truth_checks import truth_diagnostics
 from ..benchmark.unknown_names import find_unknown_names
+from ..benchmark.updater_settings import check_scene_settings
 from ..benchmark.updaters import ArmMoveUpdaterSpec, SeaStateUpdaterSpec, chain
 from ..errors import BadSetting, Diagnostic
 from ..schema import Diagnostics, parse
@@ -74,6 +75,13 @@ def breaking_levels(benchmark: CheckedBenchmark) -> Iterator[Diagnostic]:
         if text := next(filter(None, texts), ""):
             message = f"at {updater.parameter} {value:g} m, {text}"
             yield benchmark.warning(updater, message, "finalValue")
+
+
+def scene_settings(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
+    """Report the errors of updaters that set numbers of the scene file."""
+    is_independent = benchmark.spec.mode == "independent"
+    scene = benchmark.model.source
+    return check_scene_settings(benchmark.spec, scene, is_independent=is_independent)
 
 
 def recorded_truths(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:

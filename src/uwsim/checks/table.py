@@ -144,5 +144,6 @@ BENCHMARK_RULES: tuple[Rule[CheckedBenchmark], ...] = (
     Rule(benchmarks.arm_positions, Need.MODEL),
     Rule(benchmarks.recorded_truths, Need.MODEL),
     Rule(benchmarks.breaking_levels, Need.MODEL),
+    Rule(benchmarks.scene_settings, Need.MODEL),
 )
 """Rules about a benchmark file."""

@@ -28,6 +28,7 @@ from uwsim.benchmark.updaters import (
     SceneLightUpdaterSpec,
     SceneUpdaterSpec,
     SeaStateUpdaterSpec,
+    SettingUpdaterSpec,
     SphericalSpec,
     WaterUpdaterSpec,
     apply_level,
@@ -88,6 +89,10 @@ MAKE: dict[str, Callable[[Path], SceneUpdaterSpec]] = {
     ),
     "u:seaStateUpdater": lambda folder: SeaStateUpdaterSpec(
         initial_value=0.0, final_value=0.6, step=0.5, interval=1.0
+    ),
+    "u:settingUpdater": lambda folder: SettingUpdaterSpec(
+        path="oceanState.oceanSurfaceHeight", initial_value=0.0, final_value=0.5, step=0.5,
+        interval=1.0,
     ),
     "u:waterUpdater": lambda folder: WaterUpdaterSpec(
         initial_value=0.5, final_value=1.6, step=0.5, interval=1.0
@@ -163,7 +168,7 @@ class Values:
             return world.water.wave_height == value
         if element == "u:waterUpdater":
             return world.water.settings[-1][0].beam_attenuation[1] == pytest.approx(value)
-        return element == "repeat"
+        return element in ("repeat", "u:settingUpdater")  # the scene was opened with it
 
 
 @pytest.mark.parametrize("elements", triples(), ids="-".join)

@@ -16,6 +16,7 @@ from .repeat import Repeat, RepeatSpec
 from .scene_fog_updater import SceneFogUpdaterSpec
 from .scene_light_updater import SceneLightUpdaterSpec
 from .sea_state_updater import SeaStateUpdaterSpec
+from .setting_updater import SettingUpdaterSpec
 from .sweep import Setter, SweepSpec, sweep_values
 from .updater import (
     MAX_LEVELS,
@@ -48,6 +49,7 @@ UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
     "sceneFogUpdater": SceneFogUpdaterSpec,
     "sceneLightUpdater": SceneLightUpdaterSpec,
     "u:seaStateUpdater": SeaStateUpdaterSpec,
+    "u:settingUpdater": SettingUpdaterSpec,
     "u:waterUpdater": WaterUpdaterSpec,
 }
 """The spec of each element, in alphabetical order."""
@@ -74,6 +76,7 @@ __all__ = [
     "SceneUpdaterSpec",
     "SeaStateUpdaterSpec",
     "Setter",
+    "SettingUpdaterSpec",
     "SphericalSpec",
     "SweepSpec",
     "WaterUpdaterSpec",

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ...assets.bundled import benchmark_file, scene_file
 from ...base.terminal import print_warnings
 from ...checks.benchmark_tables import read_plugins
-from ...errors import AssetNotFound, BadSetting, ErrorCollector
+from ...errors import AssetNotFound, BadSetting, BenchmarkError, ErrorCollector
 from ...scene.settings import XACRO_PREFIX, xacro_arguments
 from ...schema.source_line import line_of
 from ...world import TIMESTEP
@@ -95,6 +95,9 @@ def make_plan(request: PlanRequest) -> Plan:
     mode: Mode = "sequential"
     with errors.collect():
         mode = mode_of(request.mode or (None if spec is None else spec.mode))
+    with errors.collect():
+        if spec is not None and scene is not None:
+            _check_scene_settings(spec, scene, mode)
     file_quirks = () if spec is None else spec.compatibility
     quirks = compatibility_of([*file_quirks, *request.compat], errors)
     levels = levels_of(request.levels, spec, errors)
@@ -129,6 +132,14 @@ def make_plan(request: PlanRequest) -> Plan:
         inputs=inputs,
         plugins=_add_program(files.plugins, _algorithm_name(request, spec)),
     )
+
+
+def _check_scene_settings(spec: BenchmarkSpec, scene: SceneSpec, mode: Mode) -> None:
+    """Raise BenchmarkError for an updater that cannot set its number of the scene."""
+    from ...benchmark.updater_settings import check_scene_settings
+
+    if diagnostics := check_scene_settings(spec, scene, is_independent=mode == "independent"):
+        raise BenchmarkError(diagnostics)
 
 
 def _timestep_of(spec: BenchmarkSpec, scene: SceneSpec, request: PlanRequest) -> float:

@@ -7,13 +7,13 @@ mode is sequential, one level with one seed if it is independent.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any, Literal
 
 from ...benchmark.plugin import Plugin
 from ...benchmark.spec import BenchmarkSpec
-from ...benchmark.updater_settings import updater_draws
+from ...benchmark.updater_settings import scene_of_level, updater_draws
 from ...benchmark.updaters import Level
 from ...benchmark.updaters import levels as levels_of
 from ...bus import Algorithm
@@ -136,6 +136,13 @@ class Plan:
     def draws(self, seed: int) -> tuple[Draw, ...]:
         """Return the values drawn with a seed: variations of the scene, then of the benchmark."""
         return (*draw(self.scene, seed), *updater_draws(self.benchmark, seed))
+
+    def plan_of(self, trial: Trial) -> Plan:
+        """Return the plan with the scene of a trial, whose level may set numbers of the scene."""
+        if not trial.is_independent:
+            return self
+        scene = scene_of_level(self.scene, self.benchmark.scene_updater, trial.levels[0])
+        return self if scene is self.scene else replace(self, scene=scene)
 
     def levels(self) -> tuple[Level, ...]:
         """Return the levels to run.

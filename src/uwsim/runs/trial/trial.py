@@ -108,6 +108,7 @@ def open_trial(
 ) -> Iterator[TrialExecution]:
     """Open the scene of a trial and start its algorithm; the arguments are those of `execute`."""
     calls = calls or Calls()
+    plan = plan.plan_of(trial)
     with program_of(plan, calls.limit) as program:  # a process starts while the scene is opened
         simulation = Simulation(
             compile_plan(plan, trial.seed) if cache is None else cache.model(plan, trial.seed),
