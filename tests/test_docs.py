@@ -53,7 +53,9 @@ def test_every_call_of_uwsim_is_one_that_the_program_takes(page: Path) -> None:
     for words in typed(page):
         if words[0] == "uwsim" and not words[1].startswith("-"):
             command = get_command(build_application(words[1:])).commands[words[1]]
-            command.make_context(words[1], list(words[2:]))  # raises where it is wrong
+            n = 2 if COMMANDS[words[1]].subcommands and len(words) > 2 else 1
+            command = command.commands[words[2]] if n == 2 else command
+            command.make_context(words[n], list(words[n + 1 :]))  # raises where it is wrong
 
 
 @pytest.mark.parametrize("page", PAGES, ids=ids)
@@ -61,7 +63,8 @@ def test_every_call_within_a_sentence_names_a_command_that_has_those_options(pag
     for call in INLINE.findall(page.read_text()):
         words = call.split()
         if words[1] in COMMANDS:
-            known = set(OPTION.findall(command_line.section("", words[1], "--help")))
+            n = 3 if COMMANDS[words[1]].subcommands else 2
+            known = set(OPTION.findall(command_line.section("", *words[1:n], "--help")))
             assert set(OPTION.findall(call)) <= known, call
 
 

@@ -98,6 +98,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "campaigns": TASKS | {"runs", "verify", "campaigns"},
+    "suites": TASKS | {"runs", "verify", "campaigns", "analysis", "viewer", "suites"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
     "__main__": {"cli", "base"},
     "cli": (
@@ -111,6 +112,7 @@ MAY_IMPORT: dict[str, set[str]] = {
             "envelope",
             "verify",
             "campaigns",
+            "suites",
             "middleware",
             "logs",
             "reality_gap",

@@ -35,7 +35,11 @@ elements: `vehicle[girona500].virtualCamera[bowtech1].std=0.016`.
 def page() -> str:
     """Return the page as Markdown."""
     parts = [HEAD, section("uwsim", "--help")]
-    parts += [section(f"uwsim {name}", name, "--help") for name in COMMANDS]
+    for name, command in COMMANDS.items():
+        parts.append(section(f"uwsim {name}", name, "--help"))
+        parts += [
+            section(f"uwsim {name} {word}", name, word, "--help") for word in command.subcommands
+        ]
     return "\n".join(parts)
 
 

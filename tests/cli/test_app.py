@@ -13,6 +13,7 @@ from uwsim.base import terminal
 from uwsim.base.exceptions import convert_to_run_failed
 from uwsim.base.numerics import compiling
 from uwsim.cli import COMMANDS, app, exit_status, main
+from uwsim.cli.app import SUITE_COMMANDS
 
 
 def uwsim(*arguments: str) -> subprocess.CompletedProcess[str]:
@@ -89,7 +90,7 @@ def test_h_is_help(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out.startswith(f"Usage: uwsim {name} ")
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("name", [n for n, c in COMMANDS.items() if not c.subcommands])
 def test_the_help_of_a_command_shows_options_in_groups_and_no_types_of_python(
     name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -102,8 +103,29 @@ def test_the_help_of_a_command_shows_options_in_groups_and_no_types_of_python(
     assert listed.strip() == "-h, --help  Show this message and exit."
 
 
+@pytest.mark.parametrize("name", SUITE_COMMANDS)
+def test_a_command_of_a_group_has_a_help_with_examples(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["suite", name, "--help"]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith(f"Usage: uwsim suite {name} ")
+    assert SUITE_COMMANDS[name].examples
+    for example in SUITE_COMMANDS[name].examples:
+        assert example.startswith(f"uwsim suite {name}")
+        assert f"$ {example}" in " ".join(text.split())
+
+
+def test_the_help_of_a_group_names_its_commands(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["suite", "--help"]) == 0
+    text = capsys.readouterr().out
+    for name, command in SUITE_COMMANDS.items():
+        assert f"  {name} " in text
+        assert command.summary in text
+
+
 def test_the_first_line_of_a_commands_help_is_its_summary_of_one_line() -> None:
-    for command in COMMANDS.values():
+    for command in (*COMMANDS.values(), *SUITE_COMMANDS.values()):
         first, _, rest = (command.load().__doc__ or "").partition("\n")
         assert first.endswith(".")
         assert rest.strip() == "" or rest.startswith("\n"), command

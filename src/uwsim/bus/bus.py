@@ -24,6 +24,8 @@ from .services import Services
 from .topic import Remark, Topic, TopicEndpoints
 
 M = TypeVar("M")
+OBSERVERS_REASON = "is for observers of the run"
+"""The reason why a topic with the truth or with scores is hidden from algorithms under test."""
 MAX_MESSAGES_PER_STEP = 100_000
 """The greatest number of messages delivered in one step; more come from an endless loop."""
 
@@ -58,7 +60,7 @@ class Bus:
 
     def __init__(self) -> None:
         self._topics: dict[str, Topic] = {}
-        self._hidden_topics: set[str] = set()
+        self._hidden_topics: dict[str, str] = {}  # the reason by topic
         self._observers: list[Callable[[str, type], None]] = []
         self._revision = 0
         self.state = BusState()
@@ -227,13 +229,22 @@ class Bus:
 
         return publish
 
-    def hide_topic(self, topic: str) -> None:
-        """Hide a topic from algorithms under test; observers of the run may read it."""
-        self._hidden_topics.add(strip_slash(topic))
+    def hide_topic(self, topic: str, reason: str = OBSERVERS_REASON) -> None:
+        """Hide a topic from algorithms under test; observers of the run may read it.
+
+        Args:
+            topic: the name of the topic.
+            reason: the end of the sentence "topic 'x' ..." in errors; the first reason counts.
+        """
+        self._hidden_topics.setdefault(strip_slash(topic), reason)
 
     def is_hidden(self, topic: str) -> bool:
         """Return whether a topic is hidden from algorithms under test."""
         return strip_slash(topic) in self._hidden_topics
+
+    def hidden_reason(self, topic: str) -> str | None:
+        """Return why a topic is hidden from algorithms under test; None if it is not."""
+        return self._hidden_topics.get(strip_slash(topic))
 
     def unread_message(self, topic: str) -> object | None:
         """Return the newest message published without a subscriber; None if there is none."""

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import importlib
 import sys
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Annotated
 
 import typer
@@ -35,12 +35,35 @@ class Command:
     """The summary in one line for ``uwsim --help``."""
     examples: tuple[str, ...]
     """The examples that ``uwsim COMMAND --help`` shows."""
+    subcommands: Mapping[str, Command] = field(default_factory=dict)
+    """The commands of a group by their second word; empty if it is no group."""
 
     def load(self) -> Callable[..., object]:
         """Import the module and return its function."""
         module = importlib.import_module(f".{self.module}", __package__)
         return flatten_options(getattr(module, self.function))
 
+
+SUITE_COMMANDS: dict[str, Command] = {
+    "list": Command(
+        module="suites.list",
+        function="list_tasks",
+        summary="List the bundled suites, or the tasks and tracks of one.",
+        examples=("uwsim suite list", "uwsim suite list intervention"),
+    ),
+    "run": Command(
+        module="suites.run",
+        function="run_entry",
+        summary="Run an algorithm in the tasks of a suite.",
+        examples=(
+            "uwsim suite run intervention --algorithm position-pi --tasks station-v1,circle-v1 "
+            "--out entry",
+            "uwsim suite run intervention --algorithm station-v1=my_control.py:MyControl "
+            "--short --out entry",
+        ),
+    ),
+}
+"""The commands of ``uwsim suite``."""
 
 COMMANDS: dict[str, Command] = {
     "bench": Command(
@@ -245,6 +268,17 @@ COMMANDS: dict[str, Command] = {
             "-- bench my.xml --repeat 100 --out /shared/my.result > job.sh",
         ),
     ),
+    "suite": Command(
+        module="suites.suite",
+        function="suite",
+        summary="Enter an algorithm into a suite of tasks; verify and rank.",
+        examples=(
+            "uwsim suite list",
+            "uwsim suite run intervention --algorithm position-pi --tasks station-v1 --short "
+            "--out entry",
+        ),
+        subcommands=SUITE_COMMANDS,
+    ),
     "verify": Command(
         module="verify",
         function="verify",
@@ -273,6 +307,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``uwsim`` and return its exit status: 0 done, 2 invalid input, 3 the run failed."""
     all_words = list(sys.argv[1:] if arguments is None else arguments)
     words = [word for word in all_words if word != TRACEBACK] or ["--help"]
+    if len(words) == 1 and words[0] in COMMANDS and COMMANDS[words[0]].subcommands:
+        words.append("--help")
     suppress_cast_warnings()
     try:
         reject_old_options(words, COMMANDS)
@@ -306,8 +342,8 @@ def build_application(arguments: Sequence[str]) -> typer.Typer:
 
     During completion by the shell, it is the command on the line that the user is typing.
     """
-    words = typed_words() or arguments
-    command_name = next((word for word in words if not word.startswith("-")), None)
+    words = [word for word in typed_words() or arguments if not word.startswith("-")]
+    command_name = next(iter(words), None)
     app = typer.Typer(
         help="Underwater robots, simulated and measured.",
         epilog=FIRST_STEPS,
@@ -316,15 +352,44 @@ def build_application(arguments: Sequence[str]) -> typer.Typer:
     )
     app.callback()(global_options)
     for name, command in COMMANDS.items():
-        examples = "\b\nExamples:\n" + "\n".join(f"  $ {line}" for line in command.examples)
-        app.command(
-            name,
-            cls=ErrorCollectingCommand,
-            short_help=command.summary,
-            epilog=examples,
-            context_settings=HELP_NAMES,
-        )(command.load() if name == command_name else skip_command)
+        is_named = name == command_name
+        if command.subcommands and is_named:
+            app.add_typer(build_group(name, command, words[1:]), name=name)
+        else:
+            add_command(app, name, command, is_loaded=is_named)
     return app
+
+
+def build_group(name: str, group: Command, words: Sequence[str]) -> typer.Typer:
+    """Build a group of commands, importing only the one that is the first of ``words``."""
+    subcommand_name = next(iter(words), None)
+    app = typer.Typer(
+        name=name,
+        help=group.load().__doc__,
+        short_help=group.summary,
+        epilog=format_examples(group),
+        rich_markup_mode=None,
+        context_settings=HELP_NAMES,
+    )
+    for subcommand, command in group.subcommands.items():
+        add_command(app, subcommand, command, is_loaded=subcommand == subcommand_name)
+    return app
+
+
+def add_command(app: typer.Typer, name: str, command: Command, *, is_loaded: bool) -> None:
+    """Add a command, or its placeholder, which is not imported."""
+    app.command(
+        name,
+        cls=ErrorCollectingCommand,
+        short_help=command.summary,
+        epilog=format_examples(command),
+        context_settings=HELP_NAMES,
+    )(command.load() if is_loaded else skip_command)
+
+
+def format_examples(command: Command) -> str:
+    """Return the text of the examples of a command."""
+    return "\b\nExamples:\n" + "\n".join(f"  $ {line}" for line in command.examples)
 
 
 def skip_command() -> None:

@@ -34,6 +34,9 @@ class RunInfo(StoredRecord):
     """The path and value of each ``--set``."""
     levels: tuple[tuple[str, float], ...] | None = None
     """The name and value of each ``--level``."""
+    track: tuple[str, tuple[str, ...]] | None = None
+    """The name of the track and the kinds of sensors whose topics the algorithm could receive; None
+    if it could receive all topics."""
     compatibility: tuple[str, ...] | None = None
     """The names of the compatibility quirks that were on."""
     timestep: tuple[float, str] | None = None

@@ -62,7 +62,7 @@ class Execution:
     """Runs that are executed together, with the facts to record about them."""
 
     runs: Sequence[Run]
-    """The runs of one benchmark, one for each algorithm."""
+    """The runs: of one benchmark, one for each algorithm; or of the tasks of a suite."""
     executor: Executor
     """The executor of the trials."""
     workers: str
@@ -71,10 +71,14 @@ class Execution:
     """The arguments of the command ``uwsim``; empty if a Python program executes the runs."""
     stopwatch: Stopwatch = field(default_factory=Stopwatch)
     """The stopwatch, started when the files have been read."""
+    name: str = ""
+    """The title of the progress display; empty for the names of the benchmark and algorithms."""
 
     @property
     def title(self) -> str:
-        """The title of the progress display: the names of the benchmark and its algorithms."""
+        """The title of the progress display: `name`, or the names of benchmark and algorithms."""
+        if self.name:
+            return self.name
         names = ", ".join(run.plan.algorithm.name for run in self.runs)
         return f"{Path(self.runs[0].plan.benchmark.path).stem} ({names})"
 

@@ -24,6 +24,7 @@ def describe_plan(plan: Plan, renderer: str) -> RunInfo:
         parameters=dict(sorted(plan.algorithm.parameters.items())),
         settings=plan.settings,
         levels=plan.level_choices,
+        track=None if plan.track is None else (plan.track.name, plan.track.sources),
         compatibility=tuple(sorted(plan.compatibility)),
         timestep=(plan.timestep, "s"),
         version=__version__,

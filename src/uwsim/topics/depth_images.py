@@ -46,6 +46,7 @@ class RangeImageSensorToROSImageSpec(InterfaceSpec):
     """A publisher of a depth camera as sensor_msgs/Image and CameraInfo."""
 
     sources: ClassVar[tuple[str, ...]] = CAMERAS
+    source_kind: ClassVar[str] = "virtualRangeImage"  # a colour camera gives no depth
     messages: ClassVar[Mapping[str, type]] = {"image_topic": Image, "info_topic": CameraInfo}
 
     camera_name: str
@@ -89,6 +90,7 @@ class RangeCameraToPCLSpec(InterfaceSpec):
     """A publisher of a depth camera as sensor_msgs/PointCloud2."""
 
     sources: ClassVar[tuple[str, ...]] = CAMERAS
+    source_kind: ClassVar[str] = "virtualRangeImage"  # a colour camera gives no depth
     messages: ClassVar[Mapping[str, type]] = {"topic": PointCloud2}
 
     camera_name: str

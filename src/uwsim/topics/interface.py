@@ -161,6 +161,9 @@ class InterfaceSpec(Spec):
     """The kinds of elements that the interface may name, such as ``imu``; empty: it names none."""
     messages: ClassVar[Mapping[str, type]] = {}
     """The message type of each topic, by the name of the field that names the topic."""
+    source_kind: ClassVar[str] = ""
+    """The kind of source that the messages have for the tracks of suites, if it is not the element
+    of the sensor that the interface names; empty otherwise."""
 
     @classmethod
     def message_types(cls) -> Mapping[str, type]:

@@ -34,6 +34,7 @@ class SegmentationToROSSpec(InterfaceSpec):
     """A publisher of the body that each pixel shows as sensor_msgs/Image, and a legend."""
 
     sources: ClassVar[tuple[str, ...]] = CAMERAS
+    source_kind: ClassVar[str] = "u:segmentationToROS"  # no camera gives the true labels
     messages: ClassVar[Mapping[str, type]] = {"image_topic": Image, "legend_topic": String}
 
     camera_name: str

@@ -17,6 +17,7 @@ from ..runs.own_process.program import SHARED_PROCESS, is_outside
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan_request import PlanRequest
 from ..runs.planning.stored_pilot import PILOT, PREFIX
+from ..runs.tracks.track import Track
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -85,6 +86,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
         repeat=_value_of(run, "repeats"),
         mode=_value_of(run, "mode"),
         levels=run.levels or (),
+        track=None if run.track is None else Track(name=run.track[0], sources=run.track[1]),
         settings=[s for s in settings if not (is_blind and s.startswith("algorithm."))],
         compat=run.compatibility or (),
         data_path=overrides.data_path,

@@ -38,6 +38,11 @@ def benchmark_names(prefix: str) -> list[tuple[str, str]]:
     return [*_bundled_names("benchmarks", prefix), *_match_files(prefix, ".xml")]
 
 
+def suite_names(prefix: str) -> list[tuple[str, str]]:
+    """Return bundled suites, and XML files in this directory."""
+    return [*_bundled_names("suites", prefix), *_match_files(prefix, ".xml")]
+
+
 def checked_names(prefix: str) -> list[tuple[str, str]]:
     """Return bundled scenes and benchmarks, and XML and URDF files in this directory."""
     return [*copied_names(prefix), *_match_files(prefix, ".xml", ".urdf")]

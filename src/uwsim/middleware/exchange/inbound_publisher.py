@@ -35,8 +35,8 @@ class InboundPublisher:
         """
         self._sender = sender
         try:
-            if self._bus.is_hidden(topic):
-                raise BadMessage(f"Topic {topic!r} is not open to external programs.")
+            if (reason := self._bus.hidden_reason(topic)) is not None:
+                raise BadMessage(f"Topic {topic!r} {reason}.")
             if topic not in self._publishers:
                 self._publishers[topic] = self._bus.publisher(
                     topic, type(message), owner=self._owner, report=self._report_remark

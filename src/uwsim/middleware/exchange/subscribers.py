@@ -87,8 +87,8 @@ class Subscribers:
         self._unsubscribe.clear()
 
     def _subscribe(self, topic: str) -> None:
-        if self._bus.is_hidden(topic):
-            self._log.report(f"/{topic} is not sent: it is for observers of the run only")
+        if (reason := self._bus.hidden_reason(topic)) is not None:
+            self._log.report(f"/{topic} is not sent: it {reason}")
             return
 
         def receive(message: object) -> None:

@@ -29,6 +29,7 @@ RUN = fields(
         "parameters": table(any_value),
         "settings": array(items(text, text)),
         "levels": array(items(text, number)),
+        "track": items(text, array(text)),
         "compatibility": array(text),
         "timestep": items(number, text),
         "version": text,

@@ -123,6 +123,7 @@ def make_plan(request: PlanRequest) -> Plan:
         mode=mode,
         seed=request.seed,
         repeats=request.repeat,
+        track=request.track,
         level_choices=levels,
         timestep=_timestep_of(spec, scene, request),
         udp_address=request.udp_address,

@@ -22,6 +22,7 @@ from ...middleware.lockstep.spec import ClientSpec
 from ...scene.spec import SceneSpec
 from ...scene.variation import Draw, draw
 from ...world import TIMESTEP
+from ..tracks.track import Track
 
 Mode = Literal["sequential", "independent"]
 START_TIMEOUT = 10.0
@@ -91,6 +92,8 @@ class Plan:
     """The seed of the first repeat."""
     repeats: int = 1
     """The number of repeats, with seeds ``seed ... seed + repeats - 1``."""
+    track: Track | None = None
+    """The rule for the topics that the algorithm may receive; None: all that are not hidden."""
     level_choices: tuple[tuple[str, float], ...] = ()
     """``--level``: only levels whose swept parameter has one of these values."""
     compatibility: frozenset[str] = frozenset()

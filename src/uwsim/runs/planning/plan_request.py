@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ...bus import Algorithm
     from ...middleware.lockstep.spec import ClientSpec
+    from ..tracks.track import Track
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,5 +51,7 @@ class PlanRequest:
     """True if the autopilot is PX4; otherwise it is ArduPilot."""
     in_process: bool = False
     """True if a third-party algorithm shares the simulation's process."""
+    track: Track | None = None
+    """The rule for the topics that the algorithm may receive; None: all that are not hidden."""
     algorithm_is_from: str = ""
     """The file that names ``algorithm``; empty if the user named it."""

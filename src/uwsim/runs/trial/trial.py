@@ -38,6 +38,7 @@ from ..own_process.program import Program, pop_refused_messages, program_of
 from ..planning.ardupilot_scene import link_notes
 from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache, compile_plan
+from ..tracks.withheld_topics import withhold_topics
 from .error_floor import ErrorFloor
 from .fingerprint import Fingerprinter
 from .images.phase_images import PhaseImages, all_snapshots
@@ -170,6 +171,7 @@ class TrialExecution:
         self._calls = calls
         self._observer = observer
         self._inputs = pilot_inputs(plan, trial, simulation, observer)
+        withhold_topics(plan, simulation.bus)
         scene_parameters = {} if self._inputs is None else pilot_topics(simulation)
         self._parameters = {
             **scene_parameters,

@@ -346,8 +346,9 @@ class InProcessNode:
             self._reject_use("it uses its node from a thread of its own")
         if not self._is_started:
             self._reject_use("it uses its node after the end")
-        if topic is not None and self._bus.is_hidden(topic):
-            self._reject_use(f"topic {topic!r} is for observers of the run")
+        reason = None if topic is None else self._bus.hidden_reason(topic)
+        if reason is not None:
+            self._reject_use(f"topic {topic!r} {reason}")
 
     def _reject_use(self, message: str) -> NoReturn:
         self.state.error = self.state.error or f"NotAllowed: {message}"

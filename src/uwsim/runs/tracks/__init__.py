@@ -1,0 +1,1 @@
+"""The tracks of suites: the topics that an algorithm under test may receive."""

@@ -1,0 +1,66 @@
+"""The sources of the topics of a scene: the kind of sensor or device that publishes each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...devices.device import DeviceSpec
+from ...scene.spec import SceneSpec
+from ...schema.names import prefixed_name
+from ...topics import InterfaceSpec, element_name
+from ...topics.simulated_device_ros import unwrap_interfaces
+
+
+def topic_sources(scene: SceneSpec) -> dict[str, str]:
+    """Return the kind of source of each topic that sensors, devices and interfaces publish.
+
+    The keys are the names of the topics without a leading slash. A kind is the element of the
+    sensor or device, such as ``virtualCamera``. It is the element of the interface where this
+    names no sensor (``PATToROSOdom``, ``ArmToROSJointState``), or where its messages contain what
+    the sensor does not measure (``u:segmentationToROS``).
+    """
+    kinds = {
+        topic: _source_kind(interface, scene)
+        for interface in unwrap_interfaces(scene.ros_interfaces)
+        if not interface.subscribes
+        for topic in _topics_of(interface)
+    }
+    return kinds | {topic: kind for topic, kind, is_read in _device_topics(scene) if not is_read}
+
+
+def command_topics(scene: SceneSpec) -> frozenset[str]:
+    """Return the topics to which interfaces and devices of a scene subscribe."""
+    topics = {
+        topic
+        for interface in unwrap_interfaces(scene.ros_interfaces)
+        if interface.subscribes
+        for topic in _topics_of(interface)
+    }
+    return frozenset(topics | {topic for topic, _, is_read in _device_topics(scene) if is_read})
+
+
+def _topics_of(interface: InterfaceSpec) -> Iterator[str]:
+    for field in interface.message_types():
+        if topic := getattr(interface, field, ""):
+            yield str(topic).strip().lstrip("/")
+
+
+def _source_kind(interface: InterfaceSpec, scene: SceneSpec) -> str:
+    name = getattr(interface, "camera_name", None) or getattr(interface, "name", None)
+    kinds = [
+        element
+        for vehicle in scene.vehicles
+        for element, part in vehicle.all_parts()
+        if getattr(part, "name", None) == name and element in interface.sources
+    ]
+    own_kind = prefixed_name(element_name(interface))
+    return interface.source_kind or next(iter(kinds), own_kind)
+
+
+def _device_topics(scene: SceneSpec) -> Iterator[tuple[str, str, bool]]:
+    """Yield each topic of a device, the element of the device, and whether the device reads it."""
+    for vehicle in scene.vehicles:
+        for element, part in vehicle.all_parts():
+            if isinstance(part, DeviceSpec):
+                for topic in part.topics:
+                    yield topic.name.strip().lstrip("/"), element, topic.is_subscribed

@@ -1,0 +1,280 @@
+"""A suite: a file with the tasks of a leaderboard, the tracks of its entries, and its seeds.
+
+.. code-block:: xml
+
+    <suite>
+      <name>intervention</name>
+      <description>Tasks of underwater intervention.</description>
+      <split> <name>validation</name> <first>0</first> <count>10</count> </split>
+      <track>
+        <name>a</name> <description>camera, depth and IMU</description>
+        <source>virtualCamera</source> <source>pressureSensor</source> <source>imu</source>
+      </track>
+      <track> <name>c</name> <description>ground truth</description> </track>
+      <task>
+        <name>station-v1</name> <benchmark>station-keeping</benchmark>
+        <description>Hold a place in a current whose direction swings.</description>
+        <failures>missed</failures>
+        <baseline>position-p</baseline> <baseline>position-pi</baseline>
+        <control>nothing</control>
+      </task>
+    </suite>
+
+A benchmark is a file relative to the folder of the suite, or the name of a bundled benchmark.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..algorithms import ALGORITHMS
+from ..assets.bundled import bundled_files
+from ..base.files.input_files import compute_hash
+from ..devices import DEVICES
+from ..errors import AssetNotFound, FileError, UnknownName, choices, did_you_mean
+from ..runs.tracks.track import Track
+from ..schema import Diagnostics, Spec, element, parse, read
+from ..schema.names import prefixed_name
+from ..sensors import SENSORS
+from ..topics import INTERFACES
+
+ROOT = "suite"
+"""The name of the root element."""
+MAX_SEED = 2**31 - 1
+"""The greatest seed of a split."""
+TEST_SPLIT = "test"
+"""The name of the split whose seeds follow from a date and a public text (`draw_test_seeds`)."""
+TASK_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*-v[1-9][0-9]*", re.ASCII)
+"""The pattern of the name of a task: words joined by hyphens, and its version."""
+NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", re.ASCII)
+"""The pattern of the names of suites, splits and tracks."""
+
+
+class SuiteError(FileError):
+    """An invalid suite file."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SplitSpec(Spec):
+    """A ``<split>``: consecutive public seeds."""
+
+    name: str
+    """The name of the split, such as validation."""
+    first: int = element(default=0, minimum=0, maximum=MAX_SEED)
+    """The first seed."""
+    count: int = element(default=10, minimum=1, maximum=10_000)
+    """The number of seeds."""
+
+    @property
+    def seeds(self) -> range:
+        """The seeds of the split."""
+        return range(self.first, self.first + self.count)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrackSpec(Spec):
+    """A ``<track>``: the sensors and devices whose messages an algorithm may receive."""
+
+    name: str
+    """The name of the track, such as a."""
+    description: str = ""
+    """The sensors in words."""
+    sources: tuple[str, ...] = element("source", default=())
+    """The elements of sensors and devices, such as virtualCamera, or of interfaces of a vehicle,
+    such as ArmToROSJointState; none: the track permits all topics, those with the truth, too."""
+
+    @property
+    def rule(self) -> Track | None:
+        """The rule for topics; None for a track that permits all topics."""
+        return Track(name=self.name, sources=self.sources) if self.sources else None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaskSpec(Spec):
+    """A ``<task>``: a benchmark with a version, and the algorithms of its reference scores."""
+
+    name: str
+    """The name with the version, such as station-v1."""
+    benchmark: str
+    """The benchmark: a file relative to the suite, or a bundled name."""
+    description: str = ""
+    """The goal, in one sentence."""
+    levels: tuple[str, ...] = element("level", default=())
+    """Levels of the sweep as NAME=VALUE, such as current=0.2; none: all levels."""
+    failures: str = ""
+    """The statuses of failed trials, separated by blanks."""
+    baselines: tuple[str, ...] = element("baseline", default=())
+    """The algorithms of the reference scores, the simplest first."""
+    control: str | None = None
+    """The algorithm of the control condition, which does not act."""
+    expert: str | None = None
+    """The scripted expert, which may use the truth; None without one."""
+    hash: str | None = None
+    """The hash of the task's files at this version (`task_hash`); None if it is not recorded."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SuiteSpec(Spec):
+    """The content of a suite file."""
+
+    name: str
+    """The name of the suite."""
+    description: str = ""
+    """A sentence about the tasks."""
+    splits: tuple[SplitSpec, ...] = element("split")
+    """The public seeds; the first split is the default."""
+    tracks: tuple[TrackSpec, ...] = element("track")
+    """The tracks by sensors."""
+    tasks: tuple[TaskSpec, ...] = element("task")
+    """The tasks, in their order in tables."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Suite:
+    """A suite that was read from a file."""
+
+    spec: SuiteSpec
+    """The content of the file."""
+    path: Path
+    """The file."""
+    sha256: str
+    """The hash of the file: ``sha256:`` and 64 digits."""
+
+    def benchmark_of(self, task: TaskSpec) -> str:
+        """Return the benchmark of a task: a path, or a bundled name."""
+        path = self.path.parent / task.benchmark
+        return str(path) if path.is_file() else task.benchmark
+
+    def task(self, name: str) -> TaskSpec:
+        """Return the task of a name; its version may be left out.
+
+        Raises:
+            UnknownName: there is no such task.
+        """
+        for task in self.spec.tasks:
+            if name in (task.name, task.name.rpartition("-v")[0]):
+                return task
+        raise UnknownName("task", name, [task.name for task in self.spec.tasks])
+
+    def track(self, name: str) -> TrackSpec:
+        """Return the track of a name; raise UnknownName if there is none."""
+        for track in self.spec.tracks:
+            if track.name == name.lower():
+                return track
+        raise UnknownName("track", name, [track.name for track in self.spec.tracks])
+
+    def split(self, name: str) -> SplitSpec:
+        """Return the public split of a name; raise UnknownName if there is none."""
+        for split in self.spec.splits:
+            if split.name == name:
+                return split
+        names = [*(split.name for split in self.spec.splits), TEST_SPLIT]
+        raise UnknownName("split", name, names)
+
+
+def find_suite(name: str) -> Path:
+    """Return the path of a suite: a file, or a bundled suite of that name.
+
+    Raises:
+        AssetNotFound: there is no such suite.
+    """
+    files = bundled_files("suites")
+    path = Path(name)
+    if path.is_file():
+        return path
+    if name in files:
+        return files[name]
+    raise AssetNotFound(
+        f"{name!r} is neither a file nor one of the bundled suites ({', '.join(files)})."
+        f"{did_you_mean(name, files)}"
+    )
+
+
+def read_suite(path: Path) -> Suite:
+    """Read a suite file.
+
+    Raises:
+        SuiteError: the file is invalid; the error has every mistake in it.
+    """
+    diagnostics = Diagnostics(path)
+    document = parse(path, error=SuiteError)
+    if document.root.tag != ROOT:
+        diagnostics.error(
+            document.root, f"the root element is <{document.root.tag}>; expected <{ROOT}>"
+        )
+        diagnostics.check(SuiteError)
+    spec = read(SuiteSpec, document.root, diagnostics)
+    if spec is not None:
+        _check_names(spec, diagnostics)
+        _check_sources(spec.tracks, diagnostics)
+        _check_tasks(spec.tasks, path.parent, diagnostics)
+    diagnostics.check(SuiteError)
+    assert spec is not None
+    return Suite(spec=spec, path=path, sha256=compute_hash(path))
+
+
+def source_kinds() -> tuple[str, ...]:
+    """Return the elements that a track may name: sensors, devices, and interfaces of a vehicle."""
+    interfaces = [
+        prefixed_name(tag)
+        for tag, spec in INTERFACES.items()
+        if not spec.subscribes
+        and (spec.source_kind == prefixed_name(tag) or not {*spec.sources} - {"vehicle", "object"})
+    ]
+    return (*(prefixed_name(tag) for tag in (*SENSORS, *DEVICES)), *interfaces)
+
+
+def _check_names(spec: SuiteSpec, diagnostics: Diagnostics) -> None:
+    parts: list[tuple[str, str, Spec]] = [
+        ("suite", spec.name, spec),
+        *(("split", split.name, split) for split in spec.splits),
+        *(("track", track.name, track) for track in spec.tracks),
+        *(("task", task.name, task) for task in spec.tasks),
+    ]
+    names: set[tuple[str, str]] = set()
+    for kind, name, part in parts:
+        pattern, example = (TASK_NAME, "station-v1") if kind == "task" else (NAME, "validation")
+        if not pattern.fullmatch(name):
+            diagnostics.error(
+                part,
+                f"<name> of <{kind}> is {name!r}; expected, as {example!r}, "
+                "small letters, digits and hyphens" + (", and a version" if kind == "task" else ""),
+            )
+        if (kind, name) in names:
+            diagnostics.error(part, f"{kind} {name!r} is defined twice")
+        names.add((kind, name))
+        if (kind, name) == ("split", TEST_SPLIT):
+            diagnostics.error(part, "the seeds of the split 'test' follow from a date and a text")
+
+
+def _check_sources(tracks: Sequence[TrackSpec], diagnostics: Diagnostics) -> None:
+    kinds = source_kinds()
+    for track in tracks:
+        for source in track.sources:
+            if source not in kinds:
+                diagnostics.error(
+                    track,
+                    f"<source>: no sensor or device is called {source!r}.{choices(source, kinds)}",
+                )
+
+
+def _check_tasks(tasks: Sequence[TaskSpec], folder: Path, diagnostics: Diagnostics) -> None:
+    benchmarks = bundled_files("benchmarks")
+    for task in tasks:
+        if task.benchmark not in benchmarks and not (folder / task.benchmark).is_file():
+            diagnostics.error(
+                task,
+                f"<benchmark>: {task.benchmark!r} is neither a file nor one of the bundled "
+                f"benchmarks.{choices(task.benchmark, benchmarks)}",
+            )
+        for name in (*task.baselines, task.control, task.expert):
+            if name is not None and ":" not in name and name not in ALGORITHMS:
+                diagnostics.error(
+                    task, f"no algorithm is called {name!r}.{choices(name, ALGORITHMS)}"
+                )
+        for level in task.levels:
+            if not re.fullmatch(r"\w+=[-+0-9.eE]+", level, re.ASCII):
+                diagnostics.error(task, f"<level> is {level!r}; expected NAME=VALUE, as fog=0.5")
