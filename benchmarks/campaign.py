@@ -38,7 +38,7 @@ N_TRIALS = 2
 """The number of trials whose overhead is measured."""
 N_LEVELS, N_REPEATS = 4, 2500
 BENCHMARK = f"""<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml"
-    u:algorithm="grasp-nothing">
+    u:algorithm="nothing">
   <measures>
     <time> <name>taskTime</name> </time>
     <distance> <name>path</name> <target>girona500</target> <log>0.05</log> </distance>

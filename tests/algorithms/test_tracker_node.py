@@ -16,6 +16,7 @@ BLIND = (
     "autopilot-station",
     "docking",
     "formation-pi",
+    "nothing",
     "pilot",
     "pipe-camera",
     "pipe-following",

@@ -33,10 +33,10 @@ def campaign_run(folder: Path, out: Path) -> Run:
 
 
 def campaign_plan(folder: Path) -> Plan:
-    algorithm = load_algorithm("grasp-nothing")
+    algorithm = load_algorithm("nothing")
     plan = make_plan(folder, algorithm, LEVELS, mode="independent")
     return replace(
-        plan, repeats=2, seed=7, algorithm=AlgorithmUnderTest(cls=algorithm, name="grasp-nothing")
+        plan, repeats=2, seed=7, algorithm=AlgorithmUnderTest(cls=algorithm, name="nothing")
     )
 
 
@@ -54,7 +54,7 @@ def test_killed_shards_that_are_run_again_leave_the_bytes_of_one_run(tmp_path: P
     campaign = Campaign(directory=shared.out, runs=(shared,))
     unfinished = shared.unfinished_trials()
     assert len(unfinished) == len(killed)
-    with pytest.raises(ResultError, match=f"{len(unfinished)} of 200 of grasp-nothing"):
+    with pytest.raises(ResultError, match=f"{len(unfinished)} of 200 of nothing"):
         merge(campaign)
     assert not (shared.out / "result.json").exists()
     for number in sorted(killed):

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml"
-    u:algorithm="grasp-nothing">
+    u:algorithm="nothing">
   <measures>
     <time> <name>taskTime</name> </time>
     <distance> <name>path</name> <target>girona500</target> <log>0.05</log> </distance>

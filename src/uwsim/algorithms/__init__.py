@@ -14,12 +14,13 @@ from ..errors import BadSetting, did_you_mean, type_and_text
 from .autopilot_missions import AutopilotPath, AutopilotStation
 from .control import PI, Feedforward, P
 from .control.formation import FormationPI
+from .control.nothing import SilentAlgorithm
 from .control.reach import Reach
 from .direct import Esm, InverseCompositional, SsdEsm
 from .docking import Docking
 from .ecc import Ecc
 from .frozen import FrozenTracker
-from .grasp import Grasp, GraspBlindClose, GraspNothing, GraspP, GraspTruth
+from .grasp import Grasp, GraspBlindClose, GraspP, GraspTruth
 from .orb import Orb
 from .pilot import Pilot
 from .pipe.camera_line import PipeCamera
@@ -43,10 +44,10 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "frozen": FrozenTracker,
     "grasp": Grasp,
     "grasp-blind-close": GraspBlindClose,
-    "grasp-nothing": GraspNothing,
     "grasp-p": GraspP,
     "grasp-truth": GraspTruth,
     "ic": InverseCompositional,
+    "nothing": SilentAlgorithm,
     "orb": Orb,
     "p": P,
     "pi": PI,

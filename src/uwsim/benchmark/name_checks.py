@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Sequence
 
 from lxml import etree
 
 from ..base import expression
-from ..schema import Diagnostics, line_of
-from .measures import MeasureSpec
+from ..schema import NAMESPACE, Diagnostics, line_of
+from .measures import MeasureSpec, find_outcome_spec
 from .spec import FunctionSpec
 from .updaters import SceneUpdaterSpec, swept_parameters
 
@@ -52,6 +53,29 @@ def check_names(
                 spec, f"{name!r} is a {kind} of the language of scores; choose another name"
             )
         named_specs.setdefault(spec.name, spec)
+
+
+def check_outcomes(
+    root: etree._Element, measures: Sequence[MeasureSpec], diagnostics: Diagnostics
+) -> None:
+    """Report a second outcome, and names in an outcome that are no measures before it.
+
+    Args:
+        root: the ``<benchmark>`` element.
+        measures: the measures that were read without an error.
+        diagnostics: the list of errors.
+    """
+    nodes = root.findall(f"measures/{{{NAMESPACE}}}outcome")
+    for node in nodes[1:]:
+        diagnostics.error(node, "<u:outcome> is given twice; expected one")
+    outcome = find_outcome_spec(measures)
+    if outcome is None:
+        return
+    siblings = reversed(list(nodes[0].itersiblings("*", preceding=True)))
+    names = [(sibling.findtext("name") or "").strip() for sibling in siblings]
+    conditions = [*nodes[0].iterfind("success"), *nodes[0].iterfind("failure/condition")]
+    for i, message in outcome.name_errors([name for name in names if name]):
+        diagnostics.error(conditions[i], message)
 
 
 def check_function(

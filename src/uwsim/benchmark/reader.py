@@ -43,7 +43,7 @@ from .element_names import element_name, error_node
 from .element_order import check_order
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
-from .name_checks import check_function, check_names
+from .name_checks import check_function, check_names, check_outcomes
 from .plugin_tables import PREFIX
 from .spec import BenchmarkSpec
 from .sweep_checks import check_levels, warn_endless, warn_overridden, warn_still_water
@@ -163,6 +163,7 @@ class _Reader:
                 check_bound=functools.partial(check_same_levels, spec),
             )
         check_names(measures, updater, self.diagnostics)
+        check_outcomes(root, measures, self.diagnostics)
         function = None if spec is None else spec.function
         if function is not None:
             check_function(root, function, measures, self.diagnostics)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from ..errors import Diagnostic, UnknownName, UwsimError
+from ..errors import BadSetting, Diagnostic, UnknownName, UwsimError
 from ..schema import Diagnostics, Spec, fields_of, line_of
 from ..world import Stage
 from .bind_part import Part, bind_part
 from .environment import Actuator, EnvironmentSpec, Observer, bind_images
+from .measures import connect_outcomes, find_outcome_spec
 from .spec import BenchmarkSpec
 from .updaters import chain
 
@@ -29,6 +30,9 @@ def find_unknown_names(
     part_errors = [error for part in _parts(benchmark) for error in errors_of(part, stage)]
     for line, message in dict.fromkeys([*part_errors, *_environment_errors(benchmark, stage)]):
         diagnostics.error(line, message)
+    if is_whole and not diagnostics.has_errors:
+        for line, message in _outcome_errors(benchmark, stage):
+            diagnostics.error(line, message)
     return diagnostics.to_list()
 
 
@@ -81,6 +85,20 @@ def _reference_errors(spec: object, stage: Stage) -> Iterator[tuple[int | None, 
             for child in value:
                 if isinstance(child, Spec) and not isinstance(child, Part):
                     yield from _reference_errors(child, stage)
+
+
+def _outcome_errors(benchmark: BenchmarkSpec, stage: Stage) -> Iterator[tuple[int | None, str]]:
+    """Yield the names in outcomes that are no values or details of measures."""
+    outcome = find_outcome_spec(benchmark.measures)
+    if outcome is None:
+        return
+    measures = [(spec.name, spec.bind(stage.world)) for spec in benchmark.measures]
+    try:
+        connect_outcomes(measures)
+    except BadSetting as error:
+        yield line_of(outcome), str(error)
+    for _, measure in measures:
+        measure.close()
 
 
 def _environment_errors(benchmark: BenchmarkSpec, stage: Stage) -> Iterator[tuple[int | None, str]]:

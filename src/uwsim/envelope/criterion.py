@@ -7,8 +7,8 @@
 The expression has the syntax of scores; a run is broken if its value is not 0. A run whose status
 is not ``ok`` is also broken, as a lost track has no error to compare. An expression that contains
 ``status`` decides this itself: the status is a number, compared with the names ``ok`` (0),
-``lost``, ``timeout``, ``collision`` and ``error``. A run without a value for a measure of the
-expression is broken with the reason ``no value``.
+``lost``, ``timeout``, ``collision`` and ``error``; one that an outcome names is `OTHER_STATUS`. A
+run without a value for a measure of the expression is broken with the reason ``no value``.
 """
 
 from __future__ import annotations
@@ -33,6 +33,8 @@ STATUSES = {
     "simulation error": 9.0,
 }
 """The number that stands in an expression for each status of a row."""
+OTHER_STATUS = 10.0
+"""The number that stands for any other status, which a ``<u:outcome>`` names."""
 NAMES = {"ok": 0.0, "lost": 1.0, "timeout": 2.0, "collision": 3.0, "error": 4.0}
 """The names of statuses that an expression may contain, with their numbers."""
 STATUS, TOTAL = "status", "total"
@@ -70,7 +72,7 @@ class Criterion:
         if status != "ok" and not self.uses_status:
             return Judgement(is_broken=True, reason=status)
         values: dict[str, float | None] = dict(NAMES)
-        values |= {STATUS: STATUSES[status], TOTAL: row.total}
+        values |= {STATUS: STATUSES.get(status, OTHER_STATUS), TOTAL: row.total}
         values |= {name: value for name, (value, _) in row.measures.items()}
         score = self.expression.score(values)
         if score.value is None:

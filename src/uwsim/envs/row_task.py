@@ -20,8 +20,10 @@ from ..benchmark.measures import (
     EnergySpec,
     GraspSpec,
     MeasureSpec,
+    OutcomeSpec,
     PositionErrorSpec,
     TrackingErrorSpec,
+    find_outcome_spec,
 )
 from ..benchmark.triggers.never import NeverSpec
 from ..benchmark.triggers.on_init import OnInitSpec
@@ -45,6 +47,7 @@ from ..runs.planning.trial_cache import compile_plan
 from ..scene.hydrodynamics.spec import ThrusterSpec
 from ..topics.thruster_commands import ROSThrustersToPATSpec
 from .batch.flows import n_bodies
+from .compiled.outcomes import outcome_reasons
 from .episode import environment_of
 from .row_water import WATER_PATHS, RowWater
 
@@ -69,6 +72,8 @@ class RowPlan:
     """The environment."""
     measures: tuple[MeasureSpec, ...]
     """The measures that rows compute."""
+    outcome: OutcomeSpec | None
+    """The outcome, which determines the status; None: that of a complete episode is ``ok``."""
     thrusters: tuple[ThrusterSpec, ...]
     """The thrusters of the vehicle."""
     vehicle: FreeVehicle
@@ -110,7 +115,14 @@ def plan_rows(plan: Plan, model: SceneModel) -> RowPlan:
         for measure in plan.benchmark.measures
         if _is_computed(measure, spec.vehicle, vehicle)
     )
-    _refuse(plan, _measure_reasons(plan, spec, [measure.name for measure in measures]))
+    outcome = find_outcome_spec(plan.benchmark.measures)
+    _refuse(
+        plan,
+        [
+            *_measure_reasons(plan, spec, [measure.name for measure in measures]),
+            *outcome_reasons(outcome, measures),
+        ],
+    )
     n_steps = round((interval(plan.benchmark.scene_updater) or 0.0) / plan.timestep)
     water = RowWater(plan, model, spec.vehicle, n_bodies=n_bodies(vehicle), n_steps=n_steps)
     _refuse(plan, [*water.reasons(), *_find_variations(plan, spec.vehicle, vehicle, root)])
@@ -118,6 +130,7 @@ def plan_rows(plan: Plan, model: SceneModel) -> RowPlan:
         plan=plan,
         spec=spec,
         measures=measures,
+        outcome=outcome,
         thrusters=tuple(model.dynamics[index].thrusters),
         vehicle=vehicle,
         water=water,

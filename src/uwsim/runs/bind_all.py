@@ -8,7 +8,7 @@ from ..simulation import Simulation
 from .planning.plan import Plan
 from .trial.level_triggers import LevelTriggers
 from .trial.policy_channel import open_channels
-from .trial.triggered_measure import TriggeredMeasure
+from .trial.triggered_measure import bind_measures
 
 
 def bind_all(plan: Plan, simulation: Simulation) -> None:
@@ -22,9 +22,7 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
     """
     benchmark = plan.benchmark
     bind_updaters(benchmark.scene_updater, simulation.world.stage_view)
-    measures = [
-        TriggeredMeasure(spec, simulation.world.measure_view) for spec in benchmark.measures
-    ]
+    measures = bind_measures(benchmark.measures, simulation.world.measure_view)
     if plan.algorithm.client is not None:
         check_outputs(plan.algorithm.client.outputs, simulation.bus)
     for measure in measures:

@@ -27,7 +27,7 @@ from .grasp import Grasp
 from .perception import GraspModel, ObjectPerception, Perception
 from .station import StationController, StationLaw, TrackingState
 from .target import TargetEstimate
-from .variants import GraspBlindClose, GraspNothing, GraspP, GraspTruth
+from .variants import GraspBlindClose, GraspP, GraspTruth
 
 __all__ = [
     "Arm5e",
@@ -40,7 +40,6 @@ __all__ = [
     "Grasp",
     "GraspBlindClose",
     "GraspModel",
-    "GraspNothing",
     "GraspP",
     "GraspTruth",
     "Kinematics",

@@ -4,8 +4,8 @@
 - ``grasp-truth`` reads the true poses of vehicle and box from ``/truth/odometry`` and ``/tf``,
   which no real vehicle can. Its advantage over `grasp` is the loss due to errors of perception and
   navigation.
-- ``grasp-nothing`` and ``grasp-blind-close`` are sham baselines, which do not search for the box.
-  If one of them succeeds, the benchmark is invalid.
+- ``grasp-blind-close`` is a sham baseline, which does not search for the box. If it succeeds, the
+  benchmark is invalid.
 
 L is the localized world frame, which is used as the navigation frame.
 """
@@ -120,18 +120,6 @@ class TrueNavigator(Navigator):
         self._is_ready = True
         self._pose = Pose.from_quaternion(np.array([p.x, p.y, p.z]), np.array([q.w, q.x, q.y, q.z]))
         self._velocity = rotate(self._pose.rotation, np.array([v.x, v.y, v.z]))
-
-
-class GraspNothing:
-    """A sham baseline that does nothing and must never succeed."""
-
-    PARAMETERS: ClassVar[Mapping[str, float | str]] = {}
-
-    def start(self, node: Node) -> None:
-        """Publish the phase ``search`` once."""
-        self.parameters = merge_parameters(self.PARAMETERS, node.parameters)
-        publish_phase = node.publisher("phase", String)
-        publish_phase(String(data="search"))
 
 
 class GraspBlindClose:

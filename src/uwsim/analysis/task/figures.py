@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import cycle
 from pathlib import Path
 
 import matplotlib as mpl
@@ -43,6 +44,8 @@ COLOURS = {
 }
 """The colour of each status. The last two repeat the colours of ``algorithm error`` and ``lost
 target``; colour-blind readers can distinguish the others."""
+OTHER_COLOURS = ("#56B4E9", "#8C6D31", "#7B3294", "#B2DF8A")
+"""The colours of the statuses that outcomes name, in the order of their first occurrence."""
 SUCCESS_MAP, SUCCESS_RATES, PHASE_TIMES = "success-map", "success-rates", "phases"
 SUCCESS_TIMES = "success-times"
 MAX_CURVES = 6
@@ -96,18 +99,27 @@ def success_map(result: Result, cells: Sequence[TaskCell]) -> Figure:
         left, right = figure.subplots(1, 2, sharey=True)
         for axes in (left, right):
             _grid_axes(axes, result, rows, columns)
+        colours = status_colours(s for cell in cells for s in ("ok", *cell.failures))
         for cell in cells:
             position = columns.index(cell.level[1]), rows.index(cell.level[0])
             _rate_cell(left, cell, *position)
-            _endings_cell(right, cell, *position)
+            _endings_cell(right, cell, *position, colours)
         _draw_half(left, cells, rows, columns)
         right.set_ylabel("")
-        statuses = dict.fromkeys(status for cell in cells for status in ("ok", *cell.failures))
         handles = [
-            Patch(color=COLOURS.get(s, GREY), label="success" if s == "ok" else s) for s in statuses
+            Patch(color=colour, label="success" if status == "ok" else status)
+            for status, colour in colours.items()
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 6))
     return figure
+
+
+def status_colours(statuses: Iterable[str]) -> dict[str, str]:
+    """Return the colour of each status, in the order of the first occurrence."""
+    names = list(dict.fromkeys(statuses))
+    other_names = [name for name in names if name not in COLOURS]
+    colours = COLOURS | dict(zip(other_names, cycle(OTHER_COLOURS), strict=False))
+    return {name: colours[name] for name in names}
 
 
 def _grid_axes(axes: Axes, result: Result, rows: Sequence[float], columns: Sequence[float]) -> None:
@@ -132,11 +144,11 @@ def _rate_cell(axes: Axes, cell: TaskCell, x: int, y: int) -> None:
     axes.text(x, y - 0.24, limits, ha="center", va="center", color=ink, fontsize=5.5)
 
 
-def _endings_cell(axes: Axes, cell: TaskCell, x: int, y: int) -> None:
+def _endings_cell(axes: Axes, cell: TaskCell, x: int, y: int, colours: Mapping[str, str]) -> None:
     left, width = x - 0.44, 0.88
     for status, n in {"ok": cell.success.successes, **cell.failures}.items():
         share = width * n / cell.success.n
-        colour = COLOURS.get(status, GREY)
+        colour = colours[status]
         axes.add_patch(Rectangle((left, y - 0.36), share, 0.72, facecolor=colour, linewidth=0))
         left += share
 

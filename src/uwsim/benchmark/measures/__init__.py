@@ -11,6 +11,7 @@ from .euclidean_norm import EuclideanNorm, EuclideanNormSpec
 from .grasp import Grasp, GraspSpec
 from .measure import Measure, MeasureSpec
 from .object_centered_on_cam import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
+from .outcome import Outcome, OutcomeSpec, connect_outcomes, find_outcome_spec
 from .path_following import PathFollowing, PathFollowingSpec
 from .position_error import PositionError, PositionErrorSpec
 from .reach import Reach, ReachSpec
@@ -30,6 +31,7 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "u:control": ControlSpec,
     "u:energy": EnergySpec,
     "u:grasp": GraspSpec,
+    "u:outcome": OutcomeSpec,
     "u:reach": ReachSpec,
     "u:trackingError": TrackingErrorSpec,
 }
@@ -53,6 +55,8 @@ __all__ = [
     "MeasureSpec",
     "ObjectCenteredOnCam",
     "ObjectCenteredOnCamSpec",
+    "Outcome",
+    "OutcomeSpec",
     "PathFollowing",
     "PathFollowingSpec",
     "PositionError",
@@ -66,4 +70,6 @@ __all__ = [
     "TimeSpec",
     "TrackingError",
     "TrackingErrorSpec",
+    "connect_outcomes",
+    "find_outcome_spec",
 ]

@@ -33,6 +33,7 @@ from .currents import RowCurrents
 from .draws import EpisodeDraws
 from .kernel import begin_episodes, step_episodes
 from .numbers import Flags, make_arrays, task_numbers
+from .outcomes import DETAILS, RowOutcome
 
 
 class Episodes:
@@ -80,6 +81,8 @@ class Episodes:
         benchmark, all_names = plan.benchmark, [item.name for item in plan.benchmark.measures]
         self._names = [measure.name for measure in self.task.measures]
         self._score = self._compile(parse(benchmark.function.text, all_names))
+        outcome = self.task.outcome
+        self._outcome = None if outcome is None else RowOutcome(outcome, self.task.measures)
         self._success = compile_program(
             parse(self.task.spec.success or "1", self._names), self._names
         )
@@ -143,13 +146,22 @@ class Episodes:
         has_failed = self.arrays.terminated[rows]
         values = self._values(rows)
         values[has_failed] = np.nan
+        measures = {name: values[:, i] for i, name in enumerate(self._names)}
+        status = np.full(len(rows), "ok", dtype=object)
+        if self._outcome is not None:
+            status = self._outcome.judge(
+                {"value": values, **{kind: self._statistic(rows, kind) for kind in DETAILS}}
+            )
+            is_judged = np.where(has_failed, np.nan, 1.0)
+            measures[self._outcome.name] = (status == "ok") * is_judged
+        status[has_failed] = SIMULATION_ERROR
         success = run_rows(self._success, values)
-        is_success = np.isfinite(success) & (success != 0.0) & ~has_failed
+        is_success = np.isfinite(success) & (success != 0.0) & (status == "ok")
         no_score = np.full(len(rows), np.nan)
         return {
-            "measures": {name: values[:, i] for i, name in enumerate(self._names)},
+            "measures": measures,
             "score": no_score if self._score is None else run_rows(self._score, values),
-            "status": np.where(has_failed, SIMULATION_ERROR, "ok").astype(object),
+            "status": status,
             "is_success": is_success,
             "success": is_success,
         }
@@ -160,17 +172,22 @@ class Episodes:
 
     def _values(self, rows: Ints64) -> Array:
         """Return the values of the measures of some rows, (k, m)."""
-        statistics = self.arrays.statistics[rows]
-        n_samples = self.arrays.steps[rows] + 1.0
-        values = np.empty(statistics.shape[:2])
+        values = np.empty((len(rows), len(self.task.measures)))
         for i, measure in enumerate(self.task.measures):
             kind = "last" if isinstance(measure, EnergySpec) else measure.value
-            if kind == "rms":
-                values[:, i] = np.sqrt(statistics[:, i, c.SQUARES] / n_samples)
-            else:
-                column = {"last": c.LAST_SAMPLE, "mean": c.MEAN, "max": c.MAX}[kind]
-                values[:, i] = statistics[:, i, column]
+            values[:, i] = self._statistic(rows, kind)[:, i]
         return values
+
+    def _statistic(self, rows: Ints64, kind: str) -> Array:
+        """Return the last sample, mean, rms or max of each measure of some rows, (k, m)."""
+        statistics = self.arrays.statistics[rows]
+        if kind == "rms":
+            n_samples = self.arrays.steps[rows] + 1.0
+            mean_squares: Array = statistics[:, :, c.SQUARES] / n_samples[:, np.newaxis]
+            return np.sqrt(mean_squares)
+        column = {"last": c.LAST_SAMPLE, "mean": c.MEAN, "max": c.MAX}[kind]
+        result: Array = statistics[:, :, column]
+        return result
 
     def _compile(self, expression: Expression) -> Program | None:
         """Compile an expression; None if it has a measure that rows do not compute."""

@@ -12,7 +12,7 @@ from .fingerprint import Checkpoints
 from .images.snapshots import Snapshot
 from .log_columns import log_columns
 from .status import SIMULATION_ERROR
-from .triggered_measure import Sample, TriggeredMeasure, finite_value
+from .triggered_measure import Sample, TriggeredMeasure, find_outcome, finite_value
 from .visibility import Fact
 
 
@@ -27,7 +27,7 @@ class LevelRow:
     details: dict[str, tuple[float | None, str]]
     """The value and unit of each ``measure.detail``."""
     total: float | None
-    """The score of the level; None if it is missing."""
+    """The score of the level; None without one (`has_score`)."""
     status: str
     """``ok``, or the first status of docs/levels.md that applies."""
     missing_reasons: dict[str, str]
@@ -84,16 +84,28 @@ class Cells:
     """The reason of each missing (null) value, by column."""
 
 
+def has_score(measures: Sequence[TriggeredMeasure], status: str) -> bool:
+    """Return whether a level has a score: its status is ``ok``, or it ended as it should.
+
+    An outcome judges complete levels, whose measures stay comparable. Only a failure that ends a
+    level before its time leaves no score.
+    """
+    outcome = find_outcome(measures)
+    if status == "ok" or outcome is None:
+        return status == "ok"
+    return outcome.is_complete and outcome.task_status[0] == status
+
+
 def cells_of(measures: Sequence[TriggeredMeasure], status: str, status_reason: str | None) -> Cells:
     """Return the values of measures at the end of a level.
 
-    If the status is not ``ok``, a measure that the algorithm feeds has no value; with ``timeout``
+    Without a score (`has_score`), a measure that the algorithm feeds has no value; with ``timeout``
     it keeps a value that it has. After a simulation error no measure has a value.
     """
-    cells = Cells()
+    cells, is_scored = Cells(), has_score(measures, status)
     for triggered_measure in measures:
         name, measure = triggered_measure.spec.name, triggered_measure.measure
-        is_blank = status == SIMULATION_ERROR or (status != "ok" and measure.fed_by_algorithm)
+        is_blank = status == SIMULATION_ERROR or (not is_scored and measure.fed_by_algorithm)
         if status == "timeout" and finite_value(triggered_measure.value)[0] is not None:
             is_blank = False
         cells.units[name] = measure.unit
@@ -153,7 +165,7 @@ def row_of(
     """
     cells = cells_of(measures, *status)
     score = expression.score(cells.values)
-    total, reason = finite_value(score.value if status[0] == "ok" else None)
+    total, reason = finite_value(score.value if has_score(measures, status[0]) else None)
     if total is None:
         cells.missing_reasons["total"] = status[1] or score.reason or f"the function: {reason}"
     logged_measures = [measure for measure in measures if measure.spec.log is not None]

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...base.inbox import Inbox
+from ...benchmark.measures.outcome import MISSED_STATUS
 from ...messages import String
 from ...simulation import STOPPED_VERB, InProcessNode
 from ..own_process.process import PROCESS_ENDED
-from .triggered_measure import TriggeredMeasure
+from .triggered_measure import TriggeredMeasure, find_outcome
 
 SIMULATION_ERROR = "simulation error"
 """The status of a level in which, or before which, the simulation failed; it has no values."""
@@ -80,7 +81,8 @@ class StatusMonitor:
         """Return the first status of a row that applies and, unless it is ``ok``, its reason.
 
         An algorithm that reported itself lost or failed need not send estimates. If a measure
-        assesses the level as a task, the status of that measure counts.
+        assesses the level as a task, the status of that measure counts. If there is an outcome, the
+        level has its declared failures first, then those of the algorithm's estimates and reports.
 
         Args:
             measures: the measures of the level.
@@ -90,9 +92,13 @@ class StatusMonitor:
         """
         if self.failure is not None:
             return "algorithm error", self.failure
-        for measure in measures:
-            if (task_status := measure.measure.task_status) is not None:
-                return task_status
+        outcome = find_outcome(measures)
+        tasks = [measure.measure for measure in measures] if outcome is None else [outcome]
+        task_status = next((s for task in tasks if (s := task.task_status) is not None), None)
+        if task_status is not None and (
+            outcome is None or task_status[0] not in ("ok", MISSED_STATUS)
+        ):
+            return task_status
         if cutoff is not None:
             return "timeout", f"stopOn did not go on within {cutoff:g} s"
         if self.lost is None:
@@ -100,9 +106,17 @@ class StatusMonitor:
                 if measure.measure.longest_silence > MAX_SILENCE:
                     reason = measure.measure.missing_reason
                     return "timeout", reason or f"no estimate for more than {MAX_SILENCE:g} s"
-        if ending is not None:
+        if ending is not None and (task_status is None or _is_ended_by_contact(measures)):
             return "collision", ending
-        return ("ok", None) if self.lost is None else ("lost", self.lost)
+        if self.lost is not None:
+            return "lost", self.lost
+        return task_status or ("ok", None)
+
+
+def _is_ended_by_contact(measures: Sequence[TriggeredMeasure]) -> bool:
+    """Return whether a measure that assesses no task ended the level."""
+    judges = (m.measure for m in measures if m.measure.ends_level is not None)
+    return any(measure.task_status is None for measure in judges)
 
 
 def to_line(text: str) -> str:

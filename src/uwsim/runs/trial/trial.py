@@ -55,11 +55,7 @@ from .prelude import prelude_levels
 from .status import SIMULATION_ERROR, StatusMonitor, to_line
 from .trial_observer import TrialObserver
 from .trial_recorder import TrialRecorder
-from .triggered_measure import (
-    TriggeredMeasure,
-    find_ending,
-    tick_all,
-)
+from .triggered_measure import TriggeredMeasure, bind_measures, find_ending, tick_all
 from .visibility import Fact, TargetMotion, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
@@ -357,9 +353,7 @@ class TrialExecution:
         self._close_measures(measures)
 
     def _bind_measures(self) -> list[TriggeredMeasure]:
-        return [
-            TriggeredMeasure(spec, self._simulation.world.measure_view) for spec in self._measures
-        ]
+        return bind_measures(self._measures, self._simulation.world.measure_view)
 
     def _close_measures(self, measures: list[TriggeredMeasure]) -> None:
         self._measures = tuple(

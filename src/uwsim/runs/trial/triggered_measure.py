@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from numbers import Real
 
-from ...benchmark.measures import MeasureSpec
+from ...benchmark.measures import MeasureSpec, Outcome, connect_outcomes
 from ...benchmark.plugin_checks import log_sample
 from ...results.result import MAX_VALUE
 from ...world import World
@@ -104,10 +104,27 @@ class TriggeredMeasure:
         self._log_due = math.ceil(n_next * self.spec.log / timestep - 1e-9)
 
 
+def bind_measures(specs: Sequence[MeasureSpec], world: World) -> list[TriggeredMeasure]:
+    """Bind all measures of a benchmark, and connect its outcome with them.
+
+    Raises:
+        UwsimError: a name in a spec is unknown.
+    """
+    measures = [TriggeredMeasure(spec, world) for spec in specs]
+    connect_outcomes([(measure.spec.name, measure.measure) for measure in measures])
+    return measures
+
+
 def tick_all(measures: Sequence[TriggeredMeasure]) -> None:
     """Start, update or stop measures after a step."""
     for measure in measures:
         measure.tick()
+
+
+def find_outcome(measures: Sequence[TriggeredMeasure]) -> Outcome | None:
+    """Return the measure that judges the level by the others; None if there is none."""
+    judges = (measure.measure for measure in measures)
+    return next((judge for judge in judges if isinstance(judge, Outcome)), None)
 
 
 def find_ending(measures: Sequence[TriggeredMeasure]) -> str | None:
