@@ -98,7 +98,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "campaigns": TASKS | {"runs", "verify", "campaigns"},
-    "suites": TASKS | {"runs", "verify", "campaigns", "analysis", "viewer", "suites"},
+    "suites": TASKS | {"runs", "verify", "campaigns", "analysis", "middleware", "viewer", "suites"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
     "__main__": {"cli", "base"},
     "cli": (

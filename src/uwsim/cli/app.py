@@ -62,6 +62,30 @@ SUITE_COMMANDS: dict[str, Command] = {
             "--short --out entry",
         ),
     ),
+    "seeds": Command(
+        module="suites.seeds",
+        function="print_seeds",
+        summary="Print the seeds of the split test.",
+        examples=("uwsim suite seeds intervention --date 2027-01-01 --beacon 4f1c8e",),
+    ),
+    "site": Command(
+        module="suites.site",
+        function="write_leaderboard",
+        summary="Write the page of a leaderboard.",
+        examples=("uwsim suite site entries -o page",),
+    ),
+    "table": Command(
+        module="suites.table",
+        function="write_reference_table",
+        summary="Run the baselines, experts and controls of a suite.",
+        examples=("uwsim suite table intervention --workers 2 --out table",),
+    ),
+    "verify": Command(
+        module="suites.verify",
+        function="verify_submissions",
+        summary="Check submissions, and run a share of their trials again.",
+        examples=("uwsim suite verify entry", "uwsim suite verify entries/* --share 0.05"),
+    ),
 }
 """The commands of ``uwsim suite``."""
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import BadSetting, ErrorCollector
+from ..middleware.lockstep.spec import ClientSpec
 from ..results.inputs import Inputs
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.option_values import number_or_text
@@ -54,8 +55,8 @@ class Entry:
     """A flag for one seed and the middle level of each task."""
     settings: tuple[str, ...] = ()
     """Settings ``algorithm.NAME=VALUE``."""
-    request: PlanRequest = field(default_factory=lambda: PlanRequest(benchmark=""))
-    """Options for the user's files and programs; benchmark, seeds and levels are not used."""
+    client: ClientSpec | None = None
+    """The program outside that is the algorithm; None without one."""
 
     @property
     def tasks(self) -> tuple[TaskSpec, ...]:
@@ -64,15 +65,15 @@ class Entry:
 
     def plan(self, task: TaskSpec) -> Plan:
         """Return the plan of a task; raise UwsimError for invalid files, names and settings."""
-        request = replace(
-            self.request,
+        request = PlanRequest(
             benchmark=self.suite.benchmark_of(task),
-            algorithm=None if self.request.client is not None else self.algorithms[task.name],
+            algorithm=None if self.client is not None else self.algorithms[task.name],
             seed=self.seeds.first,
             repeat=1 if self.is_short else self.seeds.count,
             levels=read_levels(task),
             settings=self.settings,
             track=self.track.rule,
+            client=self.client,
         )
         plan = make_plan(request)
         if self.is_short:

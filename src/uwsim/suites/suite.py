@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..algorithms import ALGORITHMS
@@ -148,6 +148,11 @@ class Suite:
         path = self.path.parent / task.benchmark
         return str(path) if path.is_file() else task.benchmark
 
+    def select_tasks(self, names: Sequence[str]) -> Suite:
+        """Return the suite with some of its tasks; all for no names; raise UnknownName."""
+        tasks = tuple(self.task(name) for name in names) or self.spec.tasks
+        return replace(self, spec=replace(self.spec, tasks=tasks))
+
     def task(self, name: str) -> TaskSpec:
         """Return the task of a name; its version may be left out.
 
@@ -193,6 +198,11 @@ def find_suite(name: str) -> Path:
     )
 
 
+def _check_open_track(spec: SuiteSpec, diagnostics: Diagnostics) -> None:
+    if all(track.sources for track in spec.tracks):
+        diagnostics.error(spec, "expected a <track> without <source>, which permits all topics")
+
+
 def read_suite(path: Path) -> Suite:
     """Read a suite file.
 
@@ -209,6 +219,7 @@ def read_suite(path: Path) -> Suite:
     spec = read(SuiteSpec, document.root, diagnostics)
     if spec is not None:
         _check_names(spec, diagnostics)
+        _check_open_track(spec, diagnostics)
         _check_sources(spec.tracks, diagnostics)
         _check_tasks(spec.tasks, path.parent, diagnostics)
     diagnostics.check(SuiteError)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..base.expression import Expression, parse
+from ..benchmark.measures import OutcomeSpec
 from ..benchmark.spec import BenchmarkSpec
 from ..results.leaves import leaves
 from ..results.result import Cell, Result
@@ -26,10 +27,13 @@ def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Differe
     columns = [column.name for column in result.columns]
     details = {spec.name: f"{spec.name}.{spec.value}" for spec in benchmark.measures}
     expression = parse(benchmark.function.text, list(details))
+    has_outcome = any(isinstance(spec, OutcomeSpec) for spec in benchmark.measures)
     for index, cells in enumerate(result.rows):
         row = dict(zip(columns, cells, strict=True))
         if set(expression.names) <= set(row) and "total" in row:
-            computed_total = _total(expression, row)
+            # a level that an outcome judges has a score, unless a failure ended it
+            is_scored = row.get("status") == "ok" or (has_outcome and row["total"] is not None)
+            computed_total = _total(expression, row) if is_scored else None
             if leaves(row["total"]) != leaves(computed_total):
                 yield Difference(
                     location="result.json",
@@ -47,8 +51,6 @@ def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Differe
 
 
 def _total(expression: Expression, row: dict[str, Cell]) -> float | None:
-    if row.get("status") != "ok":
-        return None
     values = {
         name: float(cell) if isinstance(cell := row[name], int | float) else None
         for name in expression.names

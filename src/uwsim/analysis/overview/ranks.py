@@ -30,14 +30,23 @@ class TaskRanks:
     """The number of seeds in each of these tasks that all algorithms have at all levels."""
 
 
-def rank_algorithms(tasks: Sequence[OverviewTask]) -> TaskRanks | None:
+def rank_algorithms(
+    tasks: Sequence[OverviewTask], *, absent_tasks_fail: bool = False
+) -> TaskRanks | None:
     """Rank the algorithms over the tasks that all ran under some equal seeds; None without any.
 
     The score of a seed is the share of the levels that ended ``ok``, over the levels that all
     algorithms ran.
+
+    Args:
+        tasks: the results by task.
+        absent_tasks_fail: True to rank over all tasks; an algorithm has the score 0 in a task that
+            it did not run.
     """
     names = algorithm_names(tasks)
-    scores = {task.name: _scores(task, names) for task in tasks}
+    scores = {
+        task.name: _scores(task, names, absent_tasks_fail=absent_tasks_fail) for task in tasks
+    }
     arrays = {name: array for name, array in scores.items() if array is not None}
     if len(names) < 2 or not arrays:
         return None
@@ -54,11 +63,16 @@ def rank_algorithms(tasks: Sequence[OverviewTask]) -> TaskRanks | None:
     )
 
 
-def _scores(task: OverviewTask, names: Sequence[str]) -> Scores | None:
+def _scores(task: OverviewTask, names: Sequence[str], *, absent_tasks_fail: bool) -> Scores | None:
     """Return the share of levels that ended ``ok``, (n_algorithms, n_seeds); None if not shared."""
     entries = {entry.name: entry for entry in task.entries}
     if set(entries) != set(names):
-        return None
+        present_names = [name for name in names if name in entries]
+        scores = _scores(task, present_names, absent_tasks_fail=False) if present_names else None
+        if scores is None or not absent_tasks_fail:
+            return None
+        rows = dict(zip(present_names, scores, strict=True))
+        return np.array([rows.get(name, np.zeros(scores.shape[1])) for name in names])
     flags = [_flags(entries[name]) for name in names]
     levels = set.intersection(*({level for _, level in flag} for flag in flags))
     seeds = sorted(

@@ -15,13 +15,12 @@ from rich.table import Table
 
 from ...base.interrupts import raise_on_interrupt
 from ...errors import BadSetting, ErrorCollector
-from ...runs.planning.plan_request import PlanRequest
 from ..bench import is_piloted
 from ..options.client_options import ClientOptions
 from ..options.completion import algorithm_names
 from ..options.help_texts import INPUT, OUTPUT, RUN, option
 from ..options.live import LiveOptions
-from ..options.options import CodeOptions, WorkerOptions
+from ..options.options import WorkerOptions
 from ..output.console import standard_output
 from ..output.progress import progress
 from .list import SuiteArgument
@@ -187,7 +186,6 @@ class SuiteRunOptions:
     out: Annotated[Path, option(OUTPUT, "--out", metavar="DIR", help="The folder of the entry.")]
     card: CardOptions
     live_options: LiveOptions
-    code: CodeOptions
 
 
 def run_entry(context: typer.Context, suite: SuiteArgument, options: SuiteRunOptions) -> None:
@@ -233,14 +231,7 @@ def run_entry(context: typer.Context, suite: SuiteArgument, options: SuiteRunOpt
         seeds=seeds,
         is_short=options.seeds.is_short,
         settings=tuple(options.entry.settings or ()),
-        request=PlanRequest(
-            benchmark="",
-            data_path=[path.absolute() for path in options.code.folders],
-            plugins=[path.absolute() for path in options.code.plugin or ()],
-            no_code=options.code.no_code,
-            in_process=options.code.in_process,
-            client=options.client_options.client_spec(),
-        ),
+        client=options.client_options.client_spec(),
     )
     code = out / CODE_FOLDER
     with chdir(code) if code.is_dir() else nullcontext():

@@ -1,0 +1,93 @@
+"""``uwsim suite site``: the page of a leaderboard from a folder of submissions."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from ...base.terminal import clean_text
+from ..options.help_texts import OUTPUT, option
+from ..options.options import OutputOption, OverwriteOption
+from ..output.progress import progress
+
+Submissions = Annotated[
+    Path, typer.Argument(metavar="DIR", help="The folder with a subfolder for each submission.")
+]
+Selection = Literal["none", "best", "all"]
+FILM_SIZE = (480, 360)
+"""The width and height of films [px]."""
+FILM_RATE = 5.0
+"""The number of images of a film per second [Hz]."""
+FILM_SPEED = 4.0
+"""The playback speed of films: simulation time per time of the film [1]."""
+
+
+def write_leaderboard(
+    directory: Submissions,
+    out: OutputOption,
+    replays: Annotated[
+        Selection,
+        option(
+            OUTPUT,
+            "--replays",
+            help="Submissions whose median and worst trial are shown in each task: none, the best, "
+            "or all. A replay takes about 10 s and 1 MB.",
+        ),
+    ] = "best",
+    films: Annotated[
+        bool, option(OUTPUT, "--films", help="Films (WebP) in place of replays; takes longer.")
+    ] = False,
+    overwrite: OverwriteOption = False,
+) -> None:
+    """Write the page of a leaderboard from a folder of submissions.
+
+    It has ranks with ties and intervals, and a heat map of tasks and difficulty. Each task has
+    success rates, failure classes, times to success and replays. Each submission has a card;
+    excluded ones have the reason. The page opens from disk, and can be published as it is.
+    The same submissions give the same bytes.
+    """
+    from ...results.directory import clear_directory
+    from ...suites.site.collect import collect_submissions
+    from ...suites.site.write import REPLAYS_FOLDER, SITE_FILES, choose_replays, write_site
+
+    board = collect_submissions(directory)
+    clear_directory(out, overwrite=overwrite, pattern=SITE_FILES, folders=(REPLAYS_FOLDER,))
+    n = 2 * len(choose_replays(board, replays))
+    with progress("replays", n, unit="files") as on_replay:
+        page = write_site(
+            board,
+            out,
+            selection=replays,
+            save_trial=save_film if films else save_replay,
+            suffix=".webp" if films else ".html",
+            on_replay=on_replay,
+        )
+    for entry in board.exclusions:
+        print(clean_text(f"excluded: {entry.name}: {' '.join(entry.reasons)}"))
+    print(f"{len(board.candidates)} submissions ranked; written: {page}")
+
+
+def save_replay(directory: Path, trial: int, path: Path) -> None:
+    """Write the page of a trial."""
+    from ...viewer.replay import Replay
+
+    Replay(directory, (trial,)).save(path)
+
+
+def save_film(directory: Path, trial: int, path: Path) -> None:
+    """Write a small film of a trial at four times its speed."""
+    from ...verify.recorded_plan import FileOverrides
+    from ...viewer.film.film import FilmSpec, TrialSequenceFilm
+    from ...viewer.film.film import save_film as write_film
+    from ...viewer.recorded import RecordedTrial
+
+    recorded_trial = RecordedTrial.open(directory, trial, FileOverrides())
+    with closing(
+        TrialSequenceFilm(
+            [recorded_trial], FilmSpec(size=FILM_SIZE, rate=FILM_RATE, speed=FILM_SPEED)
+        )
+    ) as film:
+        write_film(film, path)

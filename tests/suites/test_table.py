@@ -1,0 +1,45 @@
+"""The table of a suite has an entry for each family of reference algorithms."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from uwsim.cli import main
+from uwsim.suites.entry import Seeds
+from uwsim.suites.site.collect import collect_submissions
+from uwsim.suites.submission import load_submission
+from uwsim.suites.suite import Suite
+from uwsim.suites.table import reference_entries
+
+
+def test_a_family_has_the_tasks_for_which_the_suite_names_an_algorithm(suite: Suite) -> None:
+    seeds = Seeds(split="validation", first=0, count=2)
+    algorithms = {
+        name: dict(entry.algorithms)
+        for name, entry in reference_entries(suite, seeds, is_short=False)
+    }
+    assert algorithms == {
+        "baseline-1": {"near-v1": "position-p", "far-v1": "position-p"},
+        "baseline-2": {"far-v1": "position-pi"},
+        "expert": {"far-v1": "position-lqr"},
+        "control": {"near-v1": "nothing", "far-v1": "nothing"},
+    }
+
+
+@pytest.mark.slow
+def test_the_command_writes_entries_for_a_page(
+    small_suite: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["suite", "table", str(small_suite), "--short", "--workers", "0"]
+    assert main([*words, "--out", str(tmp_path)]) == 0
+    assert "h of CPU time in total" in capsys.readouterr().out
+    kinds = {path.name: load_submission(path).kind for path in tmp_path.iterdir()}
+    assert kinds == {
+        "baseline-1": "baseline",
+        "baseline-2": "baseline",
+        "expert": "expert",
+        "control": "control",
+    }
+    assert len(collect_submissions(tmp_path).candidates) == 4
