@@ -8,7 +8,19 @@ from uwsim.assets.mesh import Mesh
 
 from .parts import Part
 from .scenery import arm5e as smooth_arm5e
-from .scenery import cable, chain, nets, pier, pipes, pool, rocks, seabed, vehicles, wreck
+from .scenery import (
+    cable,
+    chain,
+    fixtures,
+    nets,
+    pier,
+    pipes,
+    pool,
+    rocks,
+    seabed,
+    vehicles,
+    wreck,
+)
 from .stand_ins import (
     amphora,
     arm5e,
@@ -104,6 +116,13 @@ SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
     },
     "objects/cable": {"objects/cable": cable.cable},
     "objects/chain": {"objects/chain": chain.chain},
+    "objects/fixtures": {
+        "objects/plug": fixtures.plug,
+        "objects/socket": fixtures.socket,
+        "objects/socket_panel": fixtures.socket_panel,
+        "objects/valve_handle": fixtures.valve_handle,
+        "objects/valve_panel": fixtures.valve_panel,
+    },
     "objects/nets": {"objects/net": nets.net, "objects/cage_panel": nets.cage_panel},
     "objects/pier": {"objects/pier": pier.pier},
     "objects/pipes": {"objects/pipe_flanged": pipes.pipe, "objects/pipe_elbow": pipes.elbow},

@@ -21,11 +21,16 @@ BLIND = (
     "pipe-camera",
     "pipe-following",
     "pipe-straight",
+    "plug",
+    "plug-rigid",
+    "plug-truth",
     "position-lqr",
     "position-p",
     "position-pi",
     "reach",
     "scripted",
+    "valve",
+    "valve-truth",
 )
 LOOKING = [name for name in ALGORITHMS if name not in BLIND and not name.startswith("grasp")]
 TRACKERS = [name for name in LOOKING if name != "frozen"]

@@ -168,6 +168,7 @@ class FakeWorld:
         self.actuators_by_vehicle: dict[str, Actuators] = {}
         self.twists_by_vehicle: dict[str, np.ndarray] = {}
         self.courses: dict[str, np.ndarray] = {}
+        self.joint_positions: dict[str, float] = {}
         self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
 
@@ -197,6 +198,11 @@ class FakeWorld:
         if name not in self.bodies:
             raise UnknownName("body", name, self.bodies)
         return self.bodies[name]
+
+    def joint_position(self, name: str) -> float:
+        if name not in self.joint_positions:
+            raise UnknownName("object with a joint", name, self.joint_positions)
+        return self.joint_positions[name]
 
     def contacts(self, name: str) -> Sequence[Contact]:
         self.body(name)

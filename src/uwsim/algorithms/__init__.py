@@ -22,6 +22,7 @@ from .ecc import Ecc
 from .frozen import FrozenTracker
 from .grasp import Grasp, GraspBlindClose, GraspP, GraspTruth
 from .orb import Orb
+from .panel import Plug, PlugRigid, PlugTruth, Valve, ValveTruth
 from .pilot import Pilot
 from .pipe.camera_line import PipeCamera
 from .pipe.observed_line import PipeFollowing, PipeStraight
@@ -55,12 +56,17 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "pipe-camera": PipeCamera,
     "pipe-following": PipeFollowing,
     "pipe-straight": PipeStraight,
+    "plug": Plug,
+    "plug-rigid": PlugRigid,
+    "plug-truth": PlugTruth,
     "position-lqr": PositionLQR,
     "position-p": PositionP,
     "position-pi": PositionPI,
     "reach": Reach,
     "scripted": ScriptedPilot,
     "ssd-esm": SsdEsm,
+    "valve": Valve,
+    "valve-truth": ValveTruth,
 }
 """The bundled algorithms by name, in alphabetical order."""
 

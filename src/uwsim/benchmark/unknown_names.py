@@ -137,6 +137,7 @@ RESOLVERS: dict[str, Callable[[Stage, str], object]] = {
     "camera": lambda stage, name: stage.world.camera(name),
     "contacts": lambda stage, name: stage.world.contacts(name),
     "course": lambda stage, name: stage.world.course(name),
+    "joint": lambda stage, name: stage.world.joint_position(name),
     "vehicle": _find_vehicle,
 }
 """The function that resolves each kind of reference (``refers_to``); it raises UnknownName."""

@@ -33,6 +33,11 @@ def loose_joint(index: int) -> str:
     return f"object/{index}/joint"
 
 
+def fixture_joint(index: int) -> str:
+    """Return the name in the model of the hinge or slide of the object at ``index``."""
+    return f"object/{index}/fixture"
+
+
 def grip_constraint(vehicle: int, link: str, object_index: int) -> str:
     """Return the name in the model of the constraint by which a link holds a loose object."""
     return f"grip/{vehicle}/{link}/{object_index}"

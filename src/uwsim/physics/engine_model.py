@@ -20,6 +20,7 @@ from ..base.numerics.linear import product
 from ..devices.object_picker import ObjectPickerSpec
 from ..errors import BadSetting, SceneError, UwsimError
 from ..model.body_names import (
+    fixture_joint,
     grip_constraint,
     loose_joint,
     object_body,
@@ -41,7 +42,7 @@ from .compiled_models import cached_model
 from .engine_warnings import suppress_warnings
 from .free_objects import loose_hydrodynamics, loose_link, object_errors
 from .hydrodynamics import prepare
-from .joints import add_gear, add_joint, add_servo, is_geared
+from .joints import add_fixture_joint, add_gear, add_joint, add_servo, is_geared
 from .restitution import contact_spring
 
 MAX_STEP = 0.02
@@ -117,7 +118,12 @@ def _compile(inputs: SimulatedScene) -> mujoco.MjModel:
                 raise SceneError(errors)
             link = loose_link(name, object_spec.solid, shapes[name])
             body = _add_body(spec.worldbody, name, world_from_object, link)
-            body.add_freejoint(name=loose_joint(index))
+            if object_spec.joint is None:
+                body.add_freejoint(name=loose_joint(index))
+            else:
+                add_fixture_joint(body, fixture_joint(index), object_spec.joint)
+                # a handle touches the panel that it is mounted on
+                spec.add_exclude(bodyname1="world", bodyname2=name)
             loose_physics[name] = object_spec.solid
         else:  # shapes of the world's body take the engine no time in a step
             _add_shapes(spec, spec.worldbody, name, shapes[name], world_from_object)
@@ -303,6 +309,8 @@ def _add_grips(spec: mujoco.MjSpec, inputs: SimulatedScene, objects: Collection[
             if inputs.robots[index].link(link) is None:
                 continue
             for name in objects:
+                if inputs.scene.objects[int(name.split("/")[1])].joint is not None:
+                    continue
                 weld = spec.add_equality(
                     name=grip_constraint(index, link, int(name.split("/")[1])),
                     type=mujoco.mjtEq.mjEQ_WELD,

@@ -117,9 +117,9 @@ class Grips:
                 self._place(index, self._poses.object(index))
 
     def _is_free(self, index: int) -> bool:
-        """Return whether an object is a loose object: a body of the engine that forces move."""
-        name = object_body(index)
-        return int(mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_BODY, name)) >= 0
+        """Return whether forces move an object in all directions: its body has a free joint."""
+        name = loose_joint(index)
+        return int(mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_JOINT, name)) >= 0
 
     def _is_carried(self, index: int, hold: Hold) -> bool:
         return self._is_free(index) and self._weld(index, hold) is None

@@ -1,4 +1,4 @@
-"""Joints of the MuJoCo model of a vehicle: damping, friction, servos, gears and end stops."""
+"""Joints of the MuJoCo model: damping, friction, servos, gears and end stops; joints of objects."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 
 import mujoco
 
+from ..scene.object import HingeSpec, ObjectJointSpec
 from ..scene.urdf.robot import JointSpec, MimicSpec, RobotSpec
 
 SERVO = (400.0, 60.0)
@@ -51,6 +52,25 @@ def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: b
         armature=ROTOR / _lever(joint) ** 2 if is_driven else 0.0,
         damping=[joint.damping if is_driven else 0.0, 0.0, 0.0],  # of one degree of freedom
         frictionloss=joint.friction if is_driven else 0.0,
+        solimp_friction=STIFF_FRICTION,
+    )
+
+
+def add_fixture_joint(body: mujoco.MjsBody, name: str, joint: ObjectJointSpec) -> None:
+    """Add the hinge or slide of an object to its body, through the origin of the object."""
+    is_limited = joint.lower is not None and joint.upper is not None
+    size = math.sqrt(sum(number * number for number in joint.axis))
+    body.add_joint(
+        name=name,
+        type=mujoco.mjtJoint.mjJNT_HINGE
+        if isinstance(joint, HingeSpec)
+        else mujoco.mjtJoint.mjJNT_SLIDE,
+        axis=[number / size for number in joint.axis],
+        range=[joint.lower, joint.upper] if is_limited else [0.0, 0.0],
+        limited=is_limited,
+        damping=[joint.damping, 0.0, 0.0],  # of one degree of freedom
+        stiffness=[joint.stiffness, 0.0, 0.0],
+        frictionloss=joint.friction,
         solimp_friction=STIFF_FRICTION,
     )
 

@@ -14,6 +14,7 @@ from ..base.numerics.linear import product, rotate, world_positions
 from ..base.record import Record
 from ..model.body_names import object_body, vehicle_body
 from ..model.scene_model import SceneModel
+from .kinematics.fixtures import Fixtures
 from .kinematics.link_kernel import MOUNT, compute_frame, scaled_axes
 
 Mount = npt.NDArray[np.void]
@@ -53,6 +54,8 @@ class Poses:
         self.axes = data.xmat.reshape(-1, 3, 3)
         """The rotation matrices ``world_from_body`` of these bodies, (nbody, 3, 3)."""
         ids = {model.body(i).name: i for i in range(model.nbody)}
+        self.fixtures = Fixtures(scene, model, data)
+        """The hinges and slides of objects."""
         self._bases = {i: ids[vehicle_body(i, robots[i].root)] for i in robots}
         self._links = {
             (i, link.name): ids[vehicle_body(i, link.name)]

@@ -1,4 +1,4 @@
-"""The spec of an object: mesh, pose, physics, course of a pipe or a cable."""
+"""The spec of an object: mesh, pose, physics, joint of a fixture, course of a pipe or a cable."""
 
 from __future__ import annotations
 
@@ -86,6 +86,57 @@ class PhysicsSpec(Spec):
         """True if the limits allow neither translation nor rotation."""
         lower_limits = (*self.min_linear_limit, *self.min_angular_limit)
         return lower_limits == (*self.max_linear_limit, *self.max_angular_limit)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObjectJointSpec(Spec):
+    r"""The joint of an object that is fastened to the scene: a handle, a lever, a drawer, a button.
+
+    The object's origin is on the axis, and its pose in the file is the position 0. The force
+    (torque of a hinge) of the joint at the position q is
+
+    .. math:: -k\, q - d\, \dot q - F \operatorname{sign} \dot q
+
+    with the stiffness k, the damping d and the dry friction F, which holds the joint at rest up to
+    F. Not modelled: breakaway friction above F, wear, backlash, contacts with fixed objects, and a
+    second joint: an object with a joint is fastened to the scene, not to another object.
+    """
+
+    axis: Triple = element(namespaced=True, default=(0.0, 0.0, 1.0), minimum=-1.0, maximum=1.0)
+    """The direction of the axis in the object's frame, of any length above 0 [1]."""
+    lower: float | None = element(
+        namespaced=True, default=None, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
+    )
+    """The position of the lower stop [rad or m]; without it and `<u:upper>` there are no stops."""
+    upper: float | None = element(
+        namespaced=True, default=None, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
+    )
+    """The position of the upper stop [rad or m]."""
+    friction: float = element(namespaced=True, default=0.0, minimum=0.0, maximum=1e6)
+    """The dry friction F [N m or N]."""
+    damping: float = element(namespaced=True, default=0.0, minimum=0.0, maximum=1e6)
+    """The damping d [N m s/rad or N s/m]."""
+    stiffness: float = element(namespaced=True, default=0.0, minimum=0.0, maximum=1e6)
+    """The stiffness k of the spring that returns the joint to the position 0 [N m/rad or N/m]."""
+
+    def errors(self) -> Iterator[str]:
+        """Yield errors of values that are valid one by one, but not together."""
+        if not any(self.axis):
+            yield "<u:axis> is 0 0 0; expected a direction"
+        if (self.lower is None) != (self.upper is None):
+            yield "one of <u:lower> and <u:upper> is missing; expected both or neither"
+        elif self.lower is not None and self.upper is not None and not self.lower < self.upper:
+            yield f"<u:lower> {self.lower:g} is not below <u:upper> {self.upper:g}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class HingeSpec(ObjectJointSpec):
+    """A ``<u:hinge>``: the object turns about the axis; positions in rad, torques in N m."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SlideSpec(ObjectJointSpec):
+    """A ``<u:slide>``: the object moves along the axis; positions in m, forces in N."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,6 +242,12 @@ class ObjectSpec(Spec):
     course: CourseSpec | None = element(namespaced=True, default=None)
     """The line along which the mesh is repeated and bent, as a pipe or a cable; without it the mesh
     is a single piece."""
+    hinge: HingeSpec | None = element(namespaced=True, default=None)
+    """The hinge by which the object is fastened to the scene; without it and a `<u:slide>` the
+    object is free or fixed. A joint needs `<physics>` with a mass, and a vehicle with `u:dynamics`.
+    """
+    slide: SlideSpec | None = element(namespaced=True, default=None)
+    """The slide by which the object is fastened to the scene."""
     acoustic_material: MaterialName | None = element(namespaced=True, default=None)
     """The material for sonars; without it an object called `terrain` is sand, others are steel."""
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)
@@ -212,6 +269,16 @@ class ObjectSpec(Spec):
         if self.is_ground or self.is_solid:
             return PhysicsSpec(mass=0.0, collision_shape_type="trimesh")
         return PhysicsSpec()
+
+    @property
+    def joint(self) -> ObjectJointSpec | None:
+        """The hinge or the slide; None if the object is free or fixed."""
+        return self.hinge or self.slide
+
+    @property
+    def is_free(self) -> bool:
+        """True if forces can move the object in all directions: it is loose, without a joint."""
+        return self.solid.is_loose and self.joint is None
 
     @property
     def is_ground(self) -> bool:

@@ -11,6 +11,7 @@ from ..sensors.sonar.spec import SonarSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from ..waves import find_sea_errors
+from .object import ObjectSpec
 from .physical_water import PhysicalWaterSpec
 from .spec import SceneSpec
 
@@ -38,6 +39,7 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             diagnostics.error(item.course, error)
         if item.course is not None and item.physics is not None and item.physics.is_loose:
             diagnostics.error(item.course, "<u:course> is fixed; remove <physics>, or its mass")
+        check_joint(scene, item, diagnostics)
     n_total = 0
     for image in _cameras(scene):
         if error := find_size_error(image.resw, image.resh, ocean.water):
@@ -113,6 +115,21 @@ def _sonar_errors(sonar: SonarSpec) -> Iterator[str]:
             f"{sonar.n_rays // sonar.rows} columns of {sonar.rows} rays; expected at most "
             f"{MAX_RAYS / 1e6:.0f} million rays in a ping"
         )
+
+
+def check_joint(scene: SceneSpec, item: ObjectSpec, diagnostics: Diagnostics) -> None:
+    """Report a joint that is invalid, or that nothing can move."""
+    joint = item.joint
+    if joint is None:
+        return
+    for error in joint.errors():
+        diagnostics.error(joint, error)
+    if item.hinge is not None and item.slide is not None:
+        diagnostics.error(joint, "the object has a <u:hinge>, too; expected one joint")
+    if item.physics is None or not item.physics.is_loose or item.is_solid is False:
+        diagnostics.error(joint, "the object is fixed; expected <physics> with a <mass> above 0")
+    if not scene.is_dynamic:
+        diagnostics.error(joint, "nothing moves the joint; expected a vehicle with <u:dynamics>")
 
 
 def _cameras(scene: SceneSpec) -> Iterator[VirtualCameraSpec | VirtualRangeImageSpec]:

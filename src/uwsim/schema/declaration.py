@@ -52,7 +52,7 @@ class Limits(TypedDict, total=False):
     """
 
 
-ReferenceKind = Literal["actuators", "body", "camera", "contacts", "course", "vehicle"]
+ReferenceKind = Literal["actuators", "body", "camera", "contacts", "course", "joint", "vehicle"]
 """The kinds of parts of a scene that a field may name."""
 
 

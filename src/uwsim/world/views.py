@@ -94,6 +94,13 @@ class World(TimedWorld, Protocol):
         [m].
         """
 
+    def joint_position(self, name: str) -> float:
+        """Return the position of the hinge [rad] or slide [m] of an object.
+
+        Raises:
+            UnknownName: there is no such object with a joint.
+        """
+
     def camera(self, name: str) -> Camera:
         """Return a virtual camera; raise UnknownName if there is none."""
 

@@ -58,6 +58,9 @@ class ConvexObject:
     is_round: bool = False
     """True if the object looks the same at all headings; the jaw then keeps its heading."""
 
+    clearance: float = 0.0
+    """The height of the lowest point over the seabed, as of a plate on a panel [m]."""
+
     @property
     def min_z(self) -> float:
         """The z coordinate of the lowest point [m]."""
@@ -106,7 +109,7 @@ def fit_pose(outline: Outline, view: View, model: ConvexObject) -> Sighting | No
     """Fit the pose of an object to an outline; return None if no fit is good enough."""
     if outline.is_known.sum() < MIN_KNOWN_DIRECTIONS:
         return None
-    depth = view.seabed_depth + model.min_z
+    depth = view.seabed_depth + model.min_z - model.clearance
     centre = view.intersect_plane(*outline.centre, depth)
     if centre is None:
         return None

@@ -97,6 +97,9 @@ class Grasp:
     axes (x right, y up, z back).
     """
 
+    PHASES: ClassVar[Mapping[str, type[Phase]]] = PHASES
+    """The phases by name; the first is that of the search."""
+
     def __init__(self) -> None:
         self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
         self._info: CameraInfo | None = None
@@ -271,7 +274,7 @@ class Grasp:
 
     def _enter_phase(self, name: str) -> None:
         task = self.task
-        self._phase, task.phase_start = PHASES[name](), task.now
+        self._phase, task.phase_start = self.PHASES[name](), task.now
         self.vehicle.goal_velocity = np.zeros(3)
         self._phase.enter(task)
         text = f"{name}: {task.failure}" if name in ("aborted", "retry") else name

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from .arm import JAW_CLOSED
 from .phase import Phase
 from .station import horizontal_length
@@ -67,6 +69,8 @@ class ClosePhase(Phase):
     name = "close"
     limit = 8.0
     uses_images = False
+    next_phase: ClassVar[str] = "lift"
+    """The name of the phase that follows when the jaw holds an object."""
 
     def enter(self, task: Task) -> None:
         """Tare the wrist, stop the arm and close the jaw."""
@@ -80,7 +84,7 @@ class ClosePhase(Phase):
         if task.phase_time < 2.0 or task.vehicle.jaw.is_moving:
             return None
         if task.vehicle.jaw.holds_object:
-            return "lift"
+            return self.next_phase
         position = task.vehicle.jaw.position
         task.failure = f"missed: the jaw closed to {position:.3f} rad, there is nothing in it"
         return "retry"

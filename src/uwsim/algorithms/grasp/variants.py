@@ -67,6 +67,10 @@ class GraspTruth(Grasp):
         """Make a navigator that reads the true pose."""
         return TrueNavigator(node, self.text("odometry_topic"))
 
+    def seabed_depth(self, target: BoxPose) -> float:
+        """Return the depth of the seabed under the target at a pose [m]."""
+        return float(target.position[2]) + self.box().size[2] / 2.0
+
     def _subscribe(self, node: Node) -> None:
         super()._subscribe(node)
         node.subscribe(self.text("frames_topic"), TFMessage, self._on_frames)
@@ -81,8 +85,7 @@ class GraspTruth(Grasp):
             t, q = frame.transform.translation, frame.transform.rotation
             pose = Pose.from_quaternion(np.array([t.x, t.y, t.z]), np.array([q.w, q.x, q.y, q.z]))
             box_pose = BoxPose.from_pose(pose)
-            depth = float(box_pose.position[2]) + self.box().size[2] / 2.0
-            self._navigator.bottom.set_depth(depth)
+            self._navigator.bottom.set_depth(self.seabed_depth(box_pose))
             if self._phase is not None and self._phase.uses_images:
                 sighting = Sighting(
                     pose=box_pose, covariance=TRUTH_COVARIANCE, residual=0.0, source="truth"

@@ -9,6 +9,8 @@ from .distance import Distance, DistanceSpec
 from .energy import Energy, EnergySpec
 from .euclidean_norm import EuclideanNorm, EuclideanNormSpec
 from .grasp import Grasp, GraspSpec
+from .insertion import Insertion, InsertionSpec
+from .joint_position import JointPosition, JointPositionSpec
 from .measure import Measure, MeasureSpec
 from .object_centered_on_cam import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
 from .outcome import Outcome, OutcomeSpec, connect_outcomes, find_outcome_spec
@@ -31,6 +33,8 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "u:control": ControlSpec,
     "u:energy": EnergySpec,
     "u:grasp": GraspSpec,
+    "u:insertion": InsertionSpec,
+    "u:jointPosition": JointPositionSpec,
     "u:outcome": OutcomeSpec,
     "u:reach": ReachSpec,
     "u:trackingError": TrackingErrorSpec,
@@ -51,6 +55,10 @@ __all__ = [
     "EuclideanNormSpec",
     "Grasp",
     "GraspSpec",
+    "Insertion",
+    "InsertionSpec",
+    "JointPosition",
+    "JointPositionSpec",
     "Measure",
     "MeasureSpec",
     "ObjectCenteredOnCam",

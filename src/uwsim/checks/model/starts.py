@@ -28,7 +28,8 @@ CLEARANCE = 1e-3
 
 def start_poses(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of vehicles and loose objects that begin in or under the ground, or above the water."""
-    loose_objects = [index for index, solid in scene.spec.solid_objects.items() if solid.is_loose]
+    solids = scene.spec.solid_objects.items()
+    loose_objects = [i for i, solid in solids if solid.is_loose and not scene.spec.objects[i].joint]
     with suppress(UwsimError):  # reported where models are checked
         starts = Starts(scene.resolved_scene)
         for i in scene.checked_vehicles:

@@ -151,7 +151,7 @@ def _list_bodies(model: SceneModel, engine: Engine) -> Iterator[_Body]:
             yield _make_body(vehicle.name, partial(engine.poses.vehicle, i), shapes[name])
     for i, spec in enumerate(scene.objects):
         name = object_body(i)
-        if spec.solid.is_loose and name in shapes:
+        if spec.is_free and name in shapes:
             yield _make_body(spec.name, partial(engine.poses.object, i), shapes[name])
 
 

@@ -29,6 +29,7 @@ class MeasureView(SceneView):
         self._vehicles = scene.vehicles
         self._scene_spec = scene.model.scene
         self.stream = scene.stream
+        self.joint_position = scene.engine.poses.fixtures.position
 
     def twist(self, name: str) -> Array:
         """Return the twist of a vehicle's base over ground, in base axes, (6,) [m/s, rad/s]."""
