@@ -238,10 +238,6 @@ class Bus:
         """
         self._hidden_topics.setdefault(strip_slash(topic), reason)
 
-    def is_hidden(self, topic: str) -> bool:
-        """Return whether a topic is hidden from algorithms under test."""
-        return strip_slash(topic) in self._hidden_topics
-
     def hidden_reason(self, topic: str) -> str | None:
         """Return why a topic is hidden from algorithms under test; None if it is not."""
         return self._hidden_topics.get(strip_slash(topic))

@@ -173,13 +173,6 @@ class Bridge(ABC):
         called from any thread.
         """
 
-    def hidden_reason(self, topic: str) -> str | None:
-        """Return why a topic is hidden from external programs; None if it is not.
-
-        May be called from any thread.
-        """
-        return self.bus.hidden_reason(topic)
-
     def put(self, topic: str, message: object, sender: str = "") -> None:
         """Accept a message from outside for the next step boundary. May be called from any thread.
 

@@ -13,7 +13,7 @@ def exposed_topics(bus: Bus, *, ignored_owner: object, log: Log) -> dict[str, To
     topics: dict[str, TopicEndpoints] = {}
     for name in bus.topics:
         endpoints = bus.endpoints(name, ignored_owner=ignored_owner)
-        if endpoints is None or bus.is_hidden(name):
+        if endpoints is None or bus.hidden_reason(name) is not None:
             continue
         if wire_type(endpoints.type) is None:
             log.report(f"/{name} is not sent: {endpoints.type.__name__} has no definition")

@@ -348,7 +348,7 @@ def test_the_truth_of_each_image_comes_with_it_and_is_hidden_from_the_algorithm(
     truth = RecordedTruthSpec(file="corners.csv", topic="truth/corners")
     stage = world(timestep=0.01)
     updater = spec(tmp_path, bag="dive", truth=truth).bind(stage)
-    assert stage.bus.is_hidden("truth/corners")
+    assert stage.bus.hidden_reason("truth/corners") is not None
     screen = Screen(stage)
     found: list[tuple[float, list[float]]] = []
     stage.bus.subscribe(

@@ -292,6 +292,21 @@ def test_frames_that_mean_nothing_are_answered_with_a_status(setting: Setting) -
     assert len(setting.lines) < 20
 
 
+def test_a_client_that_subscribes_to_a_hidden_topic_gets_the_reason(setting: Setting) -> None:
+    publish = setting.bus.publisher("truth/odometry", String)
+    setting.bus.hide_topic("truth/odometry", "(PATToROSOdom) is not in track 'b'")
+    client = setting.client()
+    send(client, op="subscribe", topic="/truth/odometry")
+    status = json.loads(client.recv(timeout=LIMIT))
+    assert status["level"] == "error"
+    assert status["msg"] == "Topic /truth/odometry (PATToROSOdom) is not in track 'b'."
+    publish(String(data="secret"))
+    setting.bus.deliver()
+    setting.bridge.step()
+    with pytest.raises(TimeoutError):
+        client.recv(timeout=0.05)
+
+
 def test_a_flood_of_messages_is_bounded_and_the_others_are_served(setting: Setting) -> None:
     inbox = setting.bus.inbox("twist", TwistStamped)
     setting.bridge.step()

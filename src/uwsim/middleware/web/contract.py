@@ -71,9 +71,6 @@ class SessionBridge(Protocol):
     admission: Admission | None
     """The rule that decides which programs may publish and call; None: all programs."""
 
-    def hidden_reason(self, topic: str) -> str | None:
-        """Return why a topic is hidden from clients; None if it is not."""
-
     def put(self, topic: str, message: object, sender: str = "") -> None:
         """Accept a message of a client."""
 

@@ -22,10 +22,17 @@ class WebGraph:
     Args:
         clock: a function that returns the simulation time [s].
         clients: the connected clients.
+        hidden_reason: a function that returns why a topic is hidden from clients; None if it is
+            not.
     """
 
-    def __init__(self, clock: Callable[[], float], clients: Collection[Client]) -> None:
-        self.clock, self._clients = clock, clients
+    def __init__(
+        self,
+        clock: Callable[[], float],
+        clients: Collection[Client],
+        hidden_reason: Callable[[str], str | None],
+    ) -> None:
+        self.clock, self._clients, self.hidden_reason = clock, clients, hidden_reason
         self.topics: Mapping[str, TopicEndpoints] = {}
         """The endpoints of each topic of the bus; the mapping is replaced as a whole."""
         self.services: Mapping[str, Service] = {}

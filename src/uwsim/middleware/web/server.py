@@ -83,7 +83,7 @@ class WebBridge(Bridge):
         super().__init__(bus, clock, log or Log("web"))
         self._options = options
         self._sessions: set[Session] = set()
-        self.graph = WebGraph(clock, self._sessions)
+        self.graph = WebGraph(clock, self._sessions, bus.hidden_reason)
         """The topics and services that clients can query."""
         self._readers = WebReaders(self.graph, self.subscribers, self.clock_topic)
         self._client_services = ClientServices(self.external_services, lambda: self.admission)

@@ -243,7 +243,7 @@ class Session:
         if compression not in COMPRESSIONS:
             names = ", ".join(COMPRESSIONS)
             raise BadMessage(f"There is no compression {compression!r:.100}; there are {names}.")
-        if (reason := self._bridge.hidden_reason(topic)) is not None:
+        if (reason := self._parts.graph.hidden_reason(topic)) is not None:
             raise BadMessage(f"Topic /{topic} {reason}.")
         bus_type = self._parts.graph.type_of(topic)
         is_named = bus_type is not None and bool(frame.get("type"))

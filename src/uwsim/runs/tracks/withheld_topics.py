@@ -33,7 +33,7 @@ def withheld_topics(plan: Plan, bus: Bus) -> dict[str, str]:
         name
         for name in bus.topics
         for endpoints in [bus.endpoints(name)]
-        if endpoints is not None and endpoints.is_published and not bus.is_hidden(name)
+        if endpoints is not None and endpoints.is_published and bus.hidden_reason(name) is None
     ]
     topics = [*published_topics, *_observation_topics(plan)]
     return {
