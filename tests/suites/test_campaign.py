@@ -149,3 +149,20 @@ def test_the_list_of_a_suite_is_json_on_request(
     (document,) = json.loads(capsys.readouterr().out)
     assert [task["name"] for task in document["tasks"]] == list(TASKS)
     assert document["tasks"][0]["failures"] == ["far", "missed"]
+
+
+def test_a_task_with_other_files_than_its_hash_needs_a_new_version(
+    small_suite: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    digest = "sha256:" + 64 * "0"
+    text = small_suite.read_text().replace(
+        "<control>nothing</control>\n  </task>", f"<hash>{digest}</hash>\n  </task>", 1
+    )
+    path = small_suite.parent / "recorded.xml"
+    words = ["--algorithm", "near=nothing", "--short", "--workers", "0", "--out", str(tmp_path)]
+    path.write_text(text)
+    assert main(["suite", "run", str(path), *words]) == 2
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert "near-v1 has other files than its <hash> states" in line
+    path.write_text(text.replace(digest, line.rpartition(", ")[2].rstrip(".")))
+    assert main(["suite", "run", str(path), *words]) == 0

@@ -7,11 +7,12 @@ A folder ``OUT`` has a result for each task, ``OUT/TASK``, the code of the algor
 from __future__ import annotations
 
 import json
+import os
 import re
 import resource
 import shutil
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -140,6 +141,19 @@ def _read_seconds(path: Path) -> float:
 
 
 def _cpu_time() -> float:
-    """Return the CPU time of this process and of its children that have ended [s]."""
+    """Return the CPU time of this process and of its children, with their ended children [s]."""
     kinds = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-    return sum(u.ru_utime + u.ru_stime for u in map(resource.getrusage, kinds))
+    ended_s = sum(u.ru_utime + u.ru_stime for u in map(resource.getrusage, kinds))
+    return ended_s + sum(_living_children_times())
+
+
+def _living_children_times() -> Iterator[float]:
+    """Yield the CPU time of each living child, with its ended children [s].
+
+    The workers of an algorithm of a user are children of a process that lives on.
+    """
+    ticks_per_second = os.sysconf("SC_CLK_TCK")
+    with suppress(OSError, ValueError, IndexError):
+        for child in Path(f"/proc/self/task/{os.getpid()}/children").read_text().split():
+            fields = Path(f"/proc/{child}/stat").read_text().rpartition(")")[2].split()
+            yield sum(map(int, fields[11:15])) / ticks_per_second  # own and of ended children

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ..errors import BadSetting, ErrorCollector
 from ..middleware.lockstep.spec import ClientSpec
-from ..results.inputs import Inputs
+from ..results.inputs import Inputs, short_hash
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.option_values import number_or_text
 from ..runs.planning.plan import Plan
@@ -160,8 +160,19 @@ def plan_entry(entry: Entry) -> list[tuple[TaskSpec, Plan]]:
 
 
 def prepare_entry(plans: Sequence[tuple[TaskSpec, Plan]], out: Path) -> list[Run]:
-    """Open the scene of each task once; return the runs, with their results in ``out/TASK``."""
-    return [prepare_run(plan, out / task.name) for task, plan in plans]
+    """Open the scene of each task once; return the runs, with their results in ``out/TASK``.
+
+    Raises:
+        UwsimError: as `prepare_run` does; or a task has other files than the suite records.
+    """
+    runs = [prepare_run(plan, out / task.name) for task, plan in plans]
+    for (task, _), run in zip(plans, runs, strict=True):
+        if task.hash is not None and task_hash(run.inputs) != task.hash:
+            raise BadSetting(
+                f"{task.name} has other files than its <hash> states, {short_hash(task.hash)}; "
+                f"expected a new version and hash, {task_hash(run.inputs)}."
+            )
+    return runs
 
 
 def task_hash(inputs: Inputs) -> str:

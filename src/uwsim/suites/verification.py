@@ -98,6 +98,7 @@ def verify_submission(
     Raises:
         ResultError: there is no submission.
     """
+    directory = directory.absolute()  # the code of the algorithm runs in a folder of its own
     submission = load_submission(directory)
     trials: dict[str, tuple[int, ...]] = {}
     verdict, reasons = VERIFIED_VERDICT, list[str]()

@@ -295,9 +295,10 @@ def test_frames_that_mean_nothing_are_answered_with_a_status(setting: Setting) -
 def test_a_client_that_subscribes_to_a_hidden_topic_gets_the_reason(setting: Setting) -> None:
     publish = setting.bus.publisher("truth/odometry", String)
     setting.bus.hide_topic("truth/odometry", "(PATToROSOdom) is not in track 'b'")
+    setting.bridge.step()
     client = setting.client()
     send(client, op="subscribe", topic="/truth/odometry")
-    status = json.loads(client.recv(timeout=LIMIT))
+    status = receive(client)
     assert status["level"] == "error"
     assert status["msg"] == "Topic /truth/odometry (PATToROSOdom) is not in track 'b'."
     publish(String(data="secret"))

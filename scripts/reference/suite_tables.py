@@ -1,0 +1,67 @@
+"""Generate the tables of ``docs/tasks.md``: the tasks and tracks of the suite ``intervention``.
+
+The page is written by hand; each table is between the marks of `scripts.reference.sensor_tables`.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from uwsim.suites.suite import find_suite, read_suite
+
+from .sensor_tables import TABLE
+
+SUITE = "intervention"
+
+
+def fill_tables(page: str) -> str:
+    """Return the page with new tables; raise KeyError for an unknown table."""
+    return TABLE.sub(lambda match: match[1] + TABLES[match[2]]() + match[3], page)
+
+
+def task_table() -> str:
+    """Return the table of the tasks."""
+    tasks = read_suite(find_suite(SUITE)).spec.tasks
+    rows = [
+        (
+            f"`{task.name}`",
+            task.description,
+            f"`{task.benchmark}`",
+            ", ".join(f"`{name}`" for name in task.baselines),
+            f"`{task.control}`" if task.control else "",
+            f"`{task.expert}`" if task.expert else "",
+            ", ".join(f"`{status}`" for status in task.failures.split()),
+        )
+        for task in tasks
+    ]
+    head = ("task", "goal", "benchmark", "baselines", "control", "expert", "failures")
+    return format_table(head, rows)
+
+
+def track_table() -> str:
+    """Return the table of the tracks."""
+    tracks = read_suite(find_suite(SUITE)).spec.tracks
+    rows = [
+        (
+            track.name,
+            track.description,
+            ", ".join(f"`{source}`" for source in track.sources) or "all",
+        )
+        for track in tracks
+    ]
+    return format_table(("track", "sensors", "elements of the scene file"), rows)
+
+
+def format_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a table in Markdown."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+TABLES: dict[str, Callable[[], str]] = {"tasks": task_table, "tracks": track_table}
+
+if __name__ == "__main__":
+    path = Path(sys.argv[1])
+    path.write_text(fill_tables(path.read_text()))
