@@ -17,7 +17,9 @@ from uwsim.cli import main as uwsim
 SIZE, SUPERSAMPLING = (800, 450), 2  # of the images [px], factor of each axis
 EXPOSURES = {
     "dredging-scene": 2.0,
+    "relay-scene": 4.0,
     "remus-scene": 1.8,
+    "rendezvous-scene": 4.0,
     "shipwreck-scene": 1.8,
     "stereo-scene": 2.0,
     "structured-light-scene": 1.8,

@@ -558,8 +558,8 @@ def test_the_bundled_benchmarks_are_those_of_the_design(name: str) -> None:
     assert told == dict.fromkeys(box + face, None) | {scored[0]: "autoInit"}
 
 
-SCORED_BY_EXTENSIONS = ("circle", "formation", "helix", "lemniscate")
-"""Bundled benchmarks whose score is that of a ``<u:trackingError>``, which the original lacks."""
+SCORED_BY_EXTENSIONS = ("circle", "formation", "helix", "lemniscate", "relay")
+"""Bundled benchmarks whose score is that of a measure which the original lacks."""
 
 
 @pytest.mark.parametrize(

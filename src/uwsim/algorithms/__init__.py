@@ -13,7 +13,7 @@ from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean, type_and_text
 from .autopilot_missions import AutopilotPath, AutopilotStation
 from .control import PI, Feedforward, P
-from .control.formation import FormationPI
+from .control.formation import FormationP, FormationPI
 from .control.nothing import SilentAlgorithm
 from .control.reach import Reach
 from .direct import Esm, InverseCompositional, SsdEsm
@@ -30,6 +30,8 @@ from .policy import is_policy
 from .position import PositionP, PositionPI
 from .position_lqr import PositionLQR
 from .scripted import ScriptedPilot
+from .team.relay import RelayHold, RelayShuttle
+from .team.rendezvous import RendezvousPredict, RendezvousPursuit, RendezvousWait
 from .tracker_node import merge_parameters
 
 __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
@@ -41,6 +43,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "ecc": Ecc,
     "esm": Esm,
     "feedforward": Feedforward,
+    "formation-p": FormationP,
     "formation-pi": FormationPI,
     "frozen": FrozenTracker,
     "grasp": Grasp,
@@ -63,6 +66,11 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "position-p": PositionP,
     "position-pi": PositionPI,
     "reach": Reach,
+    "relay-hold": RelayHold,
+    "relay-shuttle": RelayShuttle,
+    "rendezvous-predict": RendezvousPredict,
+    "rendezvous-pursuit": RendezvousPursuit,
+    "rendezvous-wait": RendezvousWait,
     "scripted": ScriptedPilot,
     "ssd-esm": SsdEsm,
     "valve": Valve,

@@ -1,4 +1,4 @@
-r"""``formation-pi``: each of several vehicles is kept at its desired position.
+r"""``formation-pi``, ``formation-p``: each of several vehicles is kept at its desired position.
 
 Each vehicle has its own ``VEHICLE/observation``. With its ``positionError`` e and
 ``referenceVelocity`` r, in the axes of the vehicle, it gets the velocity through the water
@@ -7,7 +7,7 @@ Each vehicle has its own ``VEHICLE/observation``. With its ``positionError`` e a
 
 where the part of e is limited, as is its sum with r. The integral takes the place of the current,
 which is not measured. The headings stay as they are, and the vehicles know nothing of one another
-but their desired positions: collisions are not avoided.
+but their desired positions: collisions are not avoided. ``formation-p`` has no integral.
 """
 
 from __future__ import annotations
@@ -86,3 +86,10 @@ class FormationPI:
         x, y, z = velocity.tolist()
         twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=0.0))
         self._publishers[vehicle](TwistStamped(header=header(now), twist=twist))
+
+
+class FormationP(FormationPI):
+    """A proportional controller of the positions of several vehicles."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {**FormationPI.PARAMETERS, "ki": 0.0}
+    """The parameters of `FormationPI`; the gain ``ki`` is 0."""

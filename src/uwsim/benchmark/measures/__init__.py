@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..metrics.signal import Signal
 from .collision import Collision, CollisionSpec
 from .control import Control, ControlSpec
+from .delivery import Delivery, DeliverySpec
 from .distance import Distance, DistanceSpec
 from .energy import Energy, EnergySpec
 from .euclidean_norm import EuclideanNorm, EuclideanNormSpec
@@ -31,6 +32,7 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "reconstruction3D": Reconstruction3DSpec,
     "time": TimeSpec,
     "u:control": ControlSpec,
+    "u:delivery": DeliverySpec,
     "u:energy": EnergySpec,
     "u:grasp": GraspSpec,
     "u:insertion": InsertionSpec,
@@ -47,6 +49,8 @@ __all__ = [
     "CollisionSpec",
     "Control",
     "ControlSpec",
+    "Delivery",
+    "DeliverySpec",
     "Distance",
     "DistanceSpec",
     "Energy",
