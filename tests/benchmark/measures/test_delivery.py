@@ -107,7 +107,7 @@ def test_it_is_done_when_the_last_packet_arrives() -> None:
 def test_the_topics_of_both_ends_are_hidden_from_algorithms() -> None:
     sea, _ = start_delivery()
     topics = [f"{name}_modem/{end}" for name in ("a", "relay", "b") for end in ("tx", "rx")]
-    assert [topic for topic in topics if sea.world.bus.is_hidden(topic)] == [
+    assert [topic for topic in topics if sea.world.bus.hidden_reason(topic)] == [
         "a_modem/tx",
         "b_modem/rx",
     ]
