@@ -53,6 +53,13 @@ def test_a_task_that_was_not_run_counts_as_no_success(entries: Path) -> None:
     assert success == {"position-p": 100.0, "nothing": pytest.approx(75.0), "lazy": 50.0}
 
 
+def test_the_suite_gives_the_descriptions(entries: Path, small_suite: Path) -> None:
+    page = render(collect_submissions(entries, str(small_suite)), {})
+    assert "Two short tasks." in page
+    assert "Stay near." in page
+    assert "Stay near." not in render(collect_submissions(entries), {})
+
+
 def test_the_same_submissions_give_the_same_bytes(entries: Path, tmp_path: Path) -> None:
     pages = [
         write_page(collect_submissions(entries), tmp_path / name, {}).read_bytes() for name in "ab"

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 import typer
 
 from ...base.terminal import clean_text
-from ..options.help_texts import OUTPUT, option
+from ..options.help_texts import INPUT, OUTPUT, option
 from ..options.options import OutputOption, OverwriteOption
 from ..output.progress import progress
 
@@ -28,6 +28,16 @@ FILM_SPEED = 4.0
 def write_leaderboard(
     directory: Submissions,
     out: OutputOption,
+    suite: Annotated[
+        str | None,
+        option(
+            INPUT,
+            "--suite",
+            metavar="SUITE",
+            help="The suite, for descriptions and the order of tasks. [the bundled one of the "
+            "name that submissions state]",
+        ),
+    ] = None,
     replays: Annotated[
         Selection,
         option(
@@ -53,7 +63,7 @@ def write_leaderboard(
     from ...suites.site.collect import collect_submissions
     from ...suites.site.write import REPLAYS_FOLDER, SITE_FILES, choose_replays, write_site
 
-    board = collect_submissions(directory)
+    board = collect_submissions(directory, suite)
     clear_directory(out, overwrite=overwrite, pattern=SITE_FILES, folders=(REPLAYS_FOLDER,))
     n = 2 * len(choose_replays(board, replays))
     with progress("replays", n, unit="files") as on_replay:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...analysis.comparison import Entry
 from ...analysis.overview.ranks import rank_algorithms
 from ...analysis.overview.tasks import OverviewTask
+from ...assets.bundled import bundled_files
 from ...base.files.input_files import compute_hash
 from ...errors import ResultError, UwsimError
 from ...results.journal_check import check_rows
@@ -63,14 +63,20 @@ class Leaderboard:
     """The results by task, in the order of the suite."""
 
 
-def collect_submissions(directory: Path) -> Leaderboard:
+def collect_submissions(directory: Path, suite_name: str | None = None) -> Leaderboard:
     """Read all submissions in the subfolders of a folder.
 
     Compared are submissions of one suite, with equal seeds, and tasks with equal files: those of
     the baselines, or of most submissions if there is no baseline.
 
+    Args:
+        directory: the folder.
+        suite_name: the suite, for descriptions and the order of tasks: a file or a bundled name.
+            None: the bundled suite of the name that the submissions state, if there is one.
+
     Raises:
         ResultError: no submission can be ranked.
+        UwsimError: there is no such suite, or its file is invalid.
     """
     folders = sorted(path.parent for path in directory.glob(f"*/{FILE}"))
     candidates, exclusions = [], []
@@ -86,8 +92,11 @@ def collect_submissions(directory: Path) -> Leaderboard:
         texts = [f" {entry.name}: {entry.reasons[0]}" for entry in exclusions[:1]]
         raise ResultError(f"{directory}: no folder in it has a valid {FILE}.{''.join(texts)}")
     suite: SuiteSpec | None = None
-    with suppress(UwsimError):
-        suite = read_suite(find_suite(candidates[0].submission.suite)).spec
+    name = candidates[0].submission.suite
+    if suite_name is not None:
+        suite = read_suite(find_suite(suite_name)).spec
+    elif name in bundled_files("suites"):
+        suite = read_suite(find_suite(name)).spec
     ordered_candidates = _order_by_rank(candidates, _group_tasks(candidates, suite))
     return Leaderboard(
         suite=suite,
