@@ -14,9 +14,11 @@ QUAD = rectangle(160.0, 120.0, 93.0, 28.0)
 BLIND = (
     "autopilot-path",
     "autopilot-station",
+    "dob-mpc",
     "docking",
     "formation-p",
     "formation-pi",
+    "mpc",
     "nothing",
     "pilot",
     "pipe-camera",

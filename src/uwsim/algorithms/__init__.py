@@ -29,6 +29,7 @@ from .pipe.observed_line import PipeFollowing, PipeStraight
 from .policy import is_policy
 from .position import PositionP, PositionPI
 from .position_lqr import PositionLQR
+from .predictive import DobMpc, Mpc
 from .scripted import ScriptedPilot
 from .team.relay import RelayHold, RelayShuttle
 from .team.rendezvous import RendezvousPredict, RendezvousPursuit, RendezvousWait
@@ -39,6 +40,7 @@ __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
 ALGORITHMS: dict[str, type[Algorithm]] = {
     "autopilot-path": AutopilotPath,
     "autopilot-station": AutopilotStation,
+    "dob-mpc": DobMpc,
     "docking": Docking,
     "ecc": Ecc,
     "esm": Esm,
@@ -51,6 +53,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "grasp-p": GraspP,
     "grasp-truth": GraspTruth,
     "ic": InverseCompositional,
+    "mpc": Mpc,
     "nothing": SilentAlgorithm,
     "orb": Orb,
     "p": P,

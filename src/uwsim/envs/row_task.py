@@ -246,6 +246,6 @@ def _is_computed(measure: MeasureSpec, vehicle: str, numbers: FreeVehicle) -> bo
         return measure.target == vehicle and not has_inflow
     if isinstance(measure, PositionErrorSpec):
         return measure.target == vehicle and measure.topic is None
-    if not isinstance(measure, TrackingErrorSpec):
+    if not isinstance(measure, TrackingErrorSpec) or measure.trajectory.shape == "square":
         return False
     return measure.target == vehicle and measure.relative_to is None

@@ -1,4 +1,4 @@
-"""The base of controllers that read a benchmark's observation and command a velocity."""
+"""The bases of controllers that read the observation of a benchmark."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from ..policy import OBSERVATION, START_SERVICE, slices_of
 from ..tracker_node import merge_parameters
 
 
-class ObservationController(abc.ABC):
-    """A controller of a vehicle whose velocity loops keep the commanded velocity."""
+class ObservationReader(abc.ABC):
+    """An algorithm that acts on each observation of a benchmark."""
 
-    PARAMETERS: ClassVar[Mapping[str, float | str]] = {"twist_topic": "/bluerov2/twist"}
-    """The parameters with their defaults; ``twist_topic`` is the topic of the commands."""
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {}
+    """The parameters with their defaults."""
     CHANNELS: ClassVar[tuple[str, ...]] = ("positionError",)
     """The parts of the observation that are needed."""
     KIND: ClassVar[str] = "controller"
@@ -38,7 +38,7 @@ class ObservationController(abc.ABC):
         """Read the parameters, subscribe to the observations, and start the benchmark."""
         self._read_parameters(node.parameters)
         self._node = node
-        self._publish = node.publisher(str(self._parameters["twist_topic"]), TwistStamped)
+        self._open_topic(node)
         node.subscribe(OBSERVATION, Float64MultiArray, self._on_observation)
         with suppress(UnknownName):
             node.call(START_SERVICE, Empty())
@@ -49,15 +49,16 @@ class ObservationController(abc.ABC):
         return self.CHANNELS
 
     @abc.abstractmethod
-    def command(self, parts: Mapping[str, Array], dt: float) -> tuple[Array, float]:
-        """Return the commanded velocity in the axes of the vehicle, and the turn rate.
+    def _open_topic(self, node: Node) -> None:
+        """Open the topic of the commands."""
+
+    @abc.abstractmethod
+    def _act(self, parts: Mapping[str, Array], dt: float) -> None:
+        """Publish a command.
 
         Args:
             parts: the parts of the observation by name.
             dt: the time since the last observation, 0 at the first one [s].
-
-        Returns:
-            The velocity (3,) [m/s] and the rate of turn about the z axis of the vehicle [rad/s].
         """
 
     def _read_parameters(self, parameters: Mapping[str, float | str]) -> None:
@@ -73,6 +74,31 @@ class ObservationController(abc.ABC):
                 raise BadSetting(f"The observation has no {channel}, which this {self.KIND} needs.")
         dt = 0.0 if self._time is None else self._node.now - self._time
         self._time = self._node.now
+        self._act(parts, dt)
+
+
+class ObservationController(ObservationReader):
+    """A controller of a vehicle whose velocity loops keep the commanded velocity."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {"twist_topic": "/bluerov2/twist"}
+    """The parameters with their defaults; ``twist_topic`` is the topic of the commands."""
+
+    @abc.abstractmethod
+    def command(self, parts: Mapping[str, Array], dt: float) -> tuple[Array, float]:
+        """Return the commanded velocity in the axes of the vehicle, and the turn rate.
+
+        Args:
+            parts: the parts of the observation by name.
+            dt: the time since the last observation, 0 at the first one [s].
+
+        Returns:
+            The velocity (3,) [m/s] and the rate of turn about the z axis of the vehicle [rad/s].
+        """
+
+    def _open_topic(self, node: Node) -> None:
+        self._publish = node.publisher(str(self._parameters["twist_topic"]), TwistStamped)
+
+    def _act(self, parts: Mapping[str, Array], dt: float) -> None:
         velocity, turn_rate = self.command(parts, dt)
         x, y, z = velocity.tolist()
         twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=turn_rate))
