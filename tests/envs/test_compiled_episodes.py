@@ -101,17 +101,18 @@ def test_other_quantities_and_statistics_are_those_of_the_engine(
         assert rows[3]["success"] == engine[3]["success"]
 
 
-OUTCOME = """<u:outcome> <name>outcome</name> <success>offset_rms &lt; {} &amp;&amp; energy &gt; 1
-</success> <failure> <status>far</status> <condition>offset_max &gt; {}</condition> </failure>
-<failure> <status>off</status> <condition>offset_mean &gt; {}</condition> </failure></u:outcome>"""
+SUCCESS = "<success>offset &lt; 0.3</success>"
+FAILURE = "<status>left</status> <condition>offset_max &gt; 2</condition> </failure>"
+OTHER_FAILURES = """<status>far</status> <condition>offset_max &gt; {}</condition> </failure>
+<failure> <status>off</status> <condition>offset_mean &gt; {}</condition> </failure>"""
 
 
 def test_the_outcome_of_rows_is_that_of_the_engine(tmp_path: Path) -> None:
     actions = np.random.default_rng(1).uniform(-1.0, 1.0, (10, 8)).astype(np.float32)
-    for limits, status in (((9, 9, 9), "ok"), ((0, 9, 9), "missed"), ((9, 0, 0), "far")):
+    for limit, limits, status in ((9, (9, 9), "ok"), (0, (9, 9), "missed"), (9, (0, 0), "far")):
         changes = {
-            "</u:energy>": "</u:energy>" + OUTCOME.format(*limits),
-            "<success>offset &lt; 0.3</success>": "",
+            SUCCESS: f"<success>offset_rms &lt; {limit} &amp;&amp; energy &gt; 1</success>",
+            FAILURE: OTHER_FAILURES.format(*limits),
         }
         benchmark = shorten(tmp_path, "station-keeping", 0.5, changes)
         engine = play(make_env(benchmark), 1, lambda k: actions[k])[3]
@@ -123,9 +124,8 @@ def test_the_outcome_of_rows_is_that_of_the_engine(tmp_path: Path) -> None:
 
 
 def test_rows_refuse_an_outcome_that_may_end_a_level_or_has_other_details(tmp_path: Path) -> None:
-    text = OUTCOME.format(9, 9, 9).replace("</success>", "</success> <ends>true</ends>")
-    text = text.replace("offset_max", "offset_x_max")
-    benchmark = shorten(tmp_path, "station-keeping", 0.5, {"</u:energy>": "</u:energy>" + text})
+    changes = {SUCCESS: f"{SUCCESS} <ends>true</ends>", "offset_max": "offset_x_max"}
+    benchmark = shorten(tmp_path, "station-keeping", 0.5, changes)
     with pytest.raises(BadSetting, match=r"outcome may end a level.*'offset_x_max'"):
         make_env(benchmark, stepper="rows")
 
