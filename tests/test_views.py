@@ -16,6 +16,7 @@ LIMIT, LIMIT_OF_A_VIEW = 25, 16
 """Public names of a class, inherited ones included."""
 VIEWS = {
     "MeasureView": "World",
+    "SurroundingsView": "Surroundings",
     "StageView": "Stage",
     "AdjustedWater": "StageWater",
     "DeviceView": "DeviceWorld",

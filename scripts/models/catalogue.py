@@ -115,6 +115,7 @@ SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
         "objects/rock5": rocks.rock5,
     },
     "objects/cable": {"objects/cable": cable.cable},
+    "objects/twine": {"objects/twine": cable.twine},
     "objects/chain": {"objects/chain": chain.chain},
     "objects/fixtures": {
         "objects/plug": fixtures.plug,

@@ -55,11 +55,11 @@ def test_a_loose_course_is_an_error(tmp_path: Path) -> None:
 def test_a_course_on_the_floor_lies_above_the_ground(tmp_path: Path) -> None:
     extra = "<u:onFloor> <u:clearance>0.05</u:clearance> </u:onFloor>"
     world = open_scene(read_scene(write(tmp_path, extra=extra))).world.measure_view
-    line = world.course("cable")
+    line = world.surroundings.course("cable")
     np.testing.assert_allclose(line[:, 2], -1.45, atol=1e-9)
     np.testing.assert_allclose(line[[0, -1], :2], [[1.0, 0.0], [5.0, 3.0]], atol=1e-9)
     with pytest.raises(UnknownName, match="course"):
-        world.course("terrain")
+        world.surroundings.course("terrain")
 
 
 def test_a_course_without_ground_is_an_error(tmp_path: Path) -> None:

@@ -17,7 +17,17 @@ from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
 from uwsim.network import Network
 from uwsim.optics import Medium
-from uwsim.world import Actuators, Body, BodyMotion, Box, Camera, Contact, Flow, LineOfSight
+from uwsim.world import (
+    Actuators,
+    Body,
+    BodyMotion,
+    Box,
+    Camera,
+    Contact,
+    Flow,
+    LineOfSight,
+    Rays,
+)
 from uwsim.world.mounts import MOUNT
 
 
@@ -169,6 +179,8 @@ class FakeWorld:
         self.twists_by_vehicle: dict[str, np.ndarray] = {}
         self.courses: dict[str, np.ndarray] = {}
         self.joint_positions: dict[str, float] = {}
+        self.rays: Rays | None = None
+        self.net_holes: dict[str, np.ndarray] = {}
         self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
 
@@ -193,6 +205,10 @@ class FakeWorld:
                 if math.ceil(n / (rate * self.timestep) - 1e-9) == self.step:
                     call()
             self.bus.deliver()
+
+    @property
+    def surroundings(self) -> FakeWorld:
+        return self
 
     def body(self, name: str) -> Body:
         if name not in self.bodies:
@@ -226,6 +242,11 @@ class FakeWorld:
         if name not in self.courses:
             raise UnknownName("object with a <u:course>", name, self.courses)
         return self.courses[name]
+
+    def holes(self, name: str) -> np.ndarray:
+        if name not in self.net_holes:
+            raise UnknownName("object with a <u:net>", name, self.net_holes)
+        return self.net_holes[name]
 
     def camera(self, name: str) -> Camera:
         if name not in self.cameras:

@@ -21,9 +21,11 @@ from .docking import Docking
 from .ecc import Ecc
 from .frozen import FrozenTracker
 from .grasp import Grasp, GraspBlindClose, GraspP, GraspTruth
+from .inspection.net_inspection import NetInspection, NetInspectionFixed
 from .orb import Orb
 from .panel import Plug, PlugRigid, PlugTruth, Valve, ValveTruth
 from .pilot import Pilot
+from .pipe.cable_camera import CableCamera, CableNoMemory
 from .pipe.camera_line import PipeCamera
 from .pipe.observed_line import PipeFollowing, PipeStraight
 from .policy import is_policy
@@ -31,6 +33,7 @@ from .position import PositionP, PositionPI
 from .position_lqr import PositionLQR
 from .predictive import DobMpc, Mpc
 from .scripted import ScriptedPilot
+from .survey.bottom_survey import Survey, SurveyNoDvl, SurveyTruth
 from .team.relay import RelayHold, RelayShuttle
 from .team.rendezvous import RendezvousPredict, RendezvousPursuit, RendezvousWait
 from .tracker_node import merge_parameters
@@ -40,6 +43,8 @@ __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
 ALGORITHMS: dict[str, type[Algorithm]] = {
     "autopilot-path": AutopilotPath,
     "autopilot-station": AutopilotStation,
+    "cable-camera": CableCamera,
+    "cable-no-memory": CableNoMemory,
     "dob-mpc": DobMpc,
     "docking": Docking,
     "ecc": Ecc,
@@ -54,6 +59,8 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "grasp-truth": GraspTruth,
     "ic": InverseCompositional,
     "mpc": Mpc,
+    "net-inspection": NetInspection,
+    "net-inspection-fixed": NetInspectionFixed,
     "nothing": SilentAlgorithm,
     "orb": Orb,
     "p": P,
@@ -76,6 +83,9 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "rendezvous-wait": RendezvousWait,
     "scripted": ScriptedPilot,
     "ssd-esm": SsdEsm,
+    "survey": Survey,
+    "survey-no-dvl": SurveyNoDvl,
+    "survey-truth": SurveyTruth,
     "valve": Valve,
     "valve-truth": ValveTruth,
 }

@@ -103,6 +103,7 @@ SCENERY: dict[str, StandIn] = {
     "objects/rock5": _scenery("objects/rocks"),
     "objects/socket": _scenery("objects/fixtures"),
     "objects/socket_panel": _scenery("objects/fixtures"),
+    "objects/twine": _scenery("objects/twine"),
     "objects/valve_handle": _scenery("objects/fixtures"),
     "objects/valve_panel": _scenery("objects/fixtures"),
     "objects/wreck": _scenery("objects/wreck"),

@@ -78,7 +78,9 @@ class ReferencePathSpec(Spec):
             AssetError: the CSV file has no points, or numbers that are too large or not finite.
         """
         if self.object is not None:
-            points: Array = world.course(self.object) + np.array([0.0, 0.0, self.height])
+            points: Array = world.surroundings.course(self.object) + np.array(
+                [0.0, 0.0, self.height]
+            )
             return points
         if self.file is None:
             return np.array(self.points, dtype=np.float64).reshape(-1, 3)

@@ -136,7 +136,7 @@ RESOLVERS: dict[str, Callable[[Stage, str], object]] = {
     "body": lambda stage, name: stage.world.body(name),
     "camera": lambda stage, name: stage.world.camera(name),
     "contacts": lambda stage, name: stage.world.contacts(name),
-    "course": lambda stage, name: stage.world.course(name),
+    "course": lambda stage, name: stage.world.surroundings.course(name),
     "joint": lambda stage, name: stage.world.joint_position(name),
     "vehicle": _find_vehicle,
 }

@@ -14,6 +14,7 @@ from ..assets import load_model, paint_model, primitive, unknown_model
 from ..assets.bending import BentLine, bend_model
 from ..assets.conventions import robot_scale, with_z_up
 from ..assets.mesh import Model
+from ..assets.netting import weave_net
 from ..assets.weathering import weather_model
 from ..base.geometry import Pose
 from ..base.numerics.linear import product
@@ -149,10 +150,13 @@ def placed_model(
 ) -> tuple[Model, npt.NDArray[np.float64]]:
     """Return the model of an object, and ``object_from_mesh`` with its scale, (4, 4) [m].
 
-    The model of a ``<u:course>`` is bent along it, in the frame of the object.
+    The model of a ``<u:course>`` is bent along it, and that of a ``<u:net>`` repeated for its
+    twines, in the frame of the object.
     """
     object_from_mesh = product(np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix)
     course = spec.course
+    if spec.net is not None:
+        return weave_net(model, object_from_mesh, spec.net.twines), np.eye(4)
     if course is None:
         return model, object_from_mesh
     world_from_object = scene.world_from_localized @ spec.localized_from_object

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
@@ -30,6 +31,10 @@ MAX_LENGTH = 2000.0
 """The greatest length of a course [m]."""
 MAX_STRETCHES = 1000
 """The greatest number of buried stretches."""
+MAX_TWINES = 20_000
+"""The greatest number of twines of a net before its holes are cut."""
+MIN_TWINE = 0.01
+"""The length below which a piece of twine between holes is left out [m]."""
 MAX_CONTACT_ERROR = 10.0
 """The greatest ``u:contactError`` [m]."""
 
@@ -201,6 +206,73 @@ class CourseSpec(Spec):
 
 
 @dataclass(frozen=True, kw_only=True)
+class NetSpec(Spec):
+    r"""A ``<u:net>``: a rectangular panel of square meshes with round holes.
+
+    The panel is in the x-z plane of the object, with its centre at the origin. Its twines are
+    copies of the object's mesh, a piece of twine along the y axis, which is turned and stretched to
+    the length of each. A hole cuts the twines within its circle. Not modelled: bending in a
+    current, knots, loose ends, and the drag of the net on the water.
+    """
+
+    width: float = element(namespaced=True, exclusive_minimum=0.0, maximum=1000.0)
+    """The width of the panel, along x [m]."""
+    height: float = element(namespaced=True, exclusive_minimum=0.0, maximum=1000.0)
+    """The height of the panel, along z [m]."""
+    mesh_side: float = element(namespaced=True, exclusive_minimum=0.0, maximum=1000.0)
+    """The side of a mesh; the panel has a whole number of meshes, of sides up to this [m]."""
+    holes: Numbers = element(namespaced=True, default=())
+    """The place x and z of the centre of each hole, and its radius, one after the other [m]."""
+
+    def errors(self) -> Iterator[str]:
+        """Yield errors of the holes and of the number of twines."""
+        if len(self.holes) % 3:
+            yield f"<u:holes> has {len(self.holes)} numbers; expected x, z and radius of each hole"
+        elif any(radius <= 0.0 for radius in self.holes[2::3]):
+            yield "<u:holes> has a radius of 0 or below; expected positive radii"
+        if (self.width + self.height) / self.mesh_side > MAX_TWINES:
+            yield f"<u:meshSide> makes more than {MAX_TWINES} twines; choose a larger one"
+
+    @property
+    def circles(self) -> Array:
+        """The place x and z and the radius of each hole, (n, 3) [m]."""
+        return np.array(self.holes, dtype=np.float64).reshape(-1, 3)
+
+    @property
+    def twines(self) -> Array:
+        """The ends x, z, x, z of each piece of twine, (n, 4) [m]."""
+        pieces: list[tuple[float, float, float, float]] = []
+        for length, other_length, is_level in (
+            (self.width, self.height, True),
+            (self.height, self.width, False),
+        ):
+            n = max(1, math.ceil(other_length / self.mesh_side - 1e-9))
+            for place in np.linspace(-0.5 * other_length, 0.5 * other_length, n + 1).tolist():
+                for start, end in self._pieces(length, place, is_level=is_level):
+                    ends = (start, place, end, place)
+                    pieces.append(ends if is_level else (place, start, place, end))
+        return np.array(pieces, dtype=np.float64).reshape(-1, 4)
+
+    def _pieces(
+        self, length: float, place: float, *, is_level: bool
+    ) -> Iterator[tuple[float, float]]:
+        """Yield the ends of the pieces of a twine between holes [m]."""
+        cuts = []
+        for x, z, radius in self.circles.tolist():
+            centre, distance = (x, z - place) if is_level else (z, x - place)
+            if abs(distance) < radius:
+                half = math.sqrt(radius * radius - distance * distance)
+                cuts.append((centre - half, centre + half))
+        start = -0.5 * length
+        for low, high in sorted(cuts):
+            if low - start > MIN_TWINE:
+                yield start, low
+            start = max(start, high)
+        if 0.5 * length - start > MIN_TWINE:
+            yield start, 0.5 * length
+
+
+@dataclass(frozen=True, kw_only=True)
 class ObjectSpec(Spec):
     """An ``<object>`` of a scene; the object called ``terrain`` is the ground."""
 
@@ -248,6 +320,9 @@ class ObjectSpec(Spec):
     """
     slide: SlideSpec | None = element(namespaced=True, default=None)
     """The slide by which the object is fastened to the scene."""
+    net: NetSpec | None = element(namespaced=True, default=None)
+    """The panel of net of which the mesh is a piece of twine; without it the mesh is a single
+    piece."""
     acoustic_material: MaterialName | None = element(namespaced=True, default=None)
     """The material for sonars; without it an object called `terrain` is sand, others are steel."""
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)

@@ -40,6 +40,10 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         if item.course is not None and item.physics is not None and item.physics.is_loose:
             diagnostics.error(item.course, "<u:course> is fixed; remove <physics>, or its mass")
         check_joint(scene, item, diagnostics)
+        for error in () if item.net is None else item.net.errors():
+            diagnostics.error(item.net, error)
+        if item.net is not None and item.course is not None:
+            diagnostics.error(item.net, "<u:net> and <u:course> are both given; remove one of them")
     n_total = 0
     for image in _cameras(scene):
         if error := find_size_error(image.resw, image.resh, ocean.water):

@@ -33,6 +33,7 @@ from .parts import (
     Mount,
     MovingBody,
     Rays,
+    Surroundings,
     WaterSurface,
 )
 from .views import DeviceWorld, ForceWorld, SensorWorld, Stage, StageWater, TimedWorld, World
@@ -65,6 +66,7 @@ __all__ = [
     "ServerStream",
     "Stage",
     "StageWater",
+    "Surroundings",
     "TerminalStream",
     "TimedWorld",
     "WaterSurface",

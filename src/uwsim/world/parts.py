@@ -308,6 +308,28 @@ class Rays(Protocol):
         """Return balls that cover the surfaces at their present poses, except heaps of sand."""
 
 
+class Surroundings(Protocol):
+    """The lines, holes and surfaces of a scene, for measures."""
+
+    def course(self, name: str) -> npt.NDArray[np.float64]:
+        """Return the line of an object with a ``<u:course>``; raise UnknownName if there is none.
+
+        It is the line at the beginning of the simulation, without its buried stretches, (n, 3) in W
+        [m].
+        """
+
+    def holes(self, name: str) -> npt.NDArray[np.float64]:
+        """Return the holes of an object with a ``<u:net>``; raise UnknownName if there is none.
+
+        They are the centre of each in W at the beginning of the simulation, and its radius, (n, 4)
+        [m].
+        """
+
+    @property
+    def rays(self) -> Rays:
+        """The ray caster against the surfaces of the scene at their present poses."""
+
+
 class Attachment(Protocol):
     """A frame on a vehicle, a link or an object; a force acts at the origin of the frame."""
 

@@ -30,6 +30,7 @@ from .parts import (
     ImageView,
     LineOfSight,
     Rays,
+    Surroundings,
     WaterSurface,
 )
 
@@ -87,12 +88,9 @@ class World(TimedWorld, Protocol):
         The linear velocity [m/s] is first, then the angular velocity [rad/s], in base axes, (6,).
         """
 
-    def course(self, name: str) -> npt.NDArray[np.float64]:
-        """Return the line of an object with a ``<u:course>``; raise UnknownName if there is none.
-
-        It is the line at the beginning of the simulation, without its buried stretches, (n, 3) in W
-        [m].
-        """
+    @property
+    def surroundings(self) -> Surroundings:
+        """The lines, holes and surfaces of the scene."""
 
     def joint_position(self, name: str) -> float:
         """Return the position of the hinge [rad] or slide [m] of an object.

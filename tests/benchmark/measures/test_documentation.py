@@ -11,10 +11,12 @@ from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures import (
     MEASURES,
     CollisionSpec,
+    MapErrorSpec,
     Measure,
     PathFollowingSpec,
     Reconstruction3DSpec,
 )
+from uwsim.benchmark.measures.reports.map_error import PlaceSpec
 from uwsim.world import Box
 
 PAGE = (Path(__file__).parents[3] / "docs" / "measures.md").read_text()
@@ -36,6 +38,17 @@ def test_every_measure_has_a_section_and_a_line_at_the_top(name: str) -> None:
     ("name", "measure"),
     [
         ("collision", CollisionSpec(name="c", target="v").bind(WORLD)),
+        (
+            "u:mapError",
+            MapErrorSpec(
+                name="m",
+                target="v",
+                topic="t",
+                tolerance=0.1,
+                low=PlaceSpec(x=0.0, y=0.0),
+                high=PlaceSpec(x=1.0, y=1.0),
+            ).bind(WORLD),
+        ),
         ("pathFollowing", PathFollowingSpec(name="p", target="v", end_share=0.9).bind(WORLD)),
         (
             "reconstruction3D",

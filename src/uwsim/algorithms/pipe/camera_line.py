@@ -89,6 +89,10 @@ class PipeCamera:
         with suppress(UnknownName):
             node.call(START_SERVICE, Empty())
 
+    def choose_line(self, line: DetectedLine | None) -> DetectedLine | None:
+        """Return the line to follow: the detected one; None: straight on."""
+        return line
+
     def _number(self, name: str) -> float:
         return float(self._parameters[name])
 
@@ -112,7 +116,7 @@ class PipeCamera:
         if self._detector is None or self._altitude is None:
             return
         height = self._altitude - self._number("camera_z") - self._number("pipe_height")
-        line = self._detector.detect(pixels_of(message), height)
+        line = self.choose_line(self._detector.detect(pixels_of(message), height))
         velocity, turn_rate = self._command(line or STRAIGHT_ON, dt)
         x, y, z = velocity.tolist()
         twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=turn_rate))

@@ -19,6 +19,8 @@ from .path_following import PathFollowing, PathFollowingSpec
 from .position_error import PositionError, PositionErrorSpec
 from .reach import Reach, ReachSpec
 from .reconstruction_3d import Reconstruction3D, Reconstruction3DSpec
+from .reports.detections import Detections, DetectionsSpec
+from .reports.map_error import MapError, MapErrorSpec
 from .time import Time, TimeSpec
 from .tracking_error import TrackingError, TrackingErrorSpec
 
@@ -33,10 +35,12 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "time": TimeSpec,
     "u:control": ControlSpec,
     "u:delivery": DeliverySpec,
+    "u:detections": DetectionsSpec,
     "u:energy": EnergySpec,
     "u:grasp": GraspSpec,
     "u:insertion": InsertionSpec,
     "u:jointPosition": JointPositionSpec,
+    "u:mapError": MapErrorSpec,
     "u:outcome": OutcomeSpec,
     "u:reach": ReachSpec,
     "u:trackingError": TrackingErrorSpec,
@@ -51,6 +55,8 @@ __all__ = [
     "ControlSpec",
     "Delivery",
     "DeliverySpec",
+    "Detections",
+    "DetectionsSpec",
     "Distance",
     "DistanceSpec",
     "Energy",
@@ -63,6 +69,8 @@ __all__ = [
     "InsertionSpec",
     "JointPosition",
     "JointPositionSpec",
+    "MapError",
+    "MapErrorSpec",
     "Measure",
     "MeasureSpec",
     "ObjectCenteredOnCam",

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from ...base.geometry import Array
-from ...errors import UnknownName
 from ...world import ImageContent, ImageView
 from ..access.image_views import bind_image_view
 from ..physical_scene import PhysicalScene
 from ..scene_sensors import SceneSensors
 from .scene_view import SceneView
+from .surroundings_view import SurroundingsView
 
 
 class MeasureView(SceneView):
@@ -25,25 +25,16 @@ class MeasureView(SceneView):
         self.contacts = scene.contacts.find
         self.contact_forces = scene.contacts.forces
         self.camera = sensors.camera
+        self.surroundings = SurroundingsView(scene)
+        """The lines, holes and surfaces of the scene."""
         self.actuators = scene.vehicles.actuators
         self._vehicles = scene.vehicles
-        self._scene_spec = scene.model.scene
         self.stream = scene.stream
         self.joint_position = scene.engine.poses.fixtures.position
 
     def twist(self, name: str) -> Array:
         """Return the twist of a vehicle's base over ground, in base axes, (6,) [m/s, rad/s]."""
         return self._vehicles.find(name).velocity
-
-    def course(self, name: str) -> Array:
-        """Return the line of an object with a ``<u:course>``, (n, 3) in W [m]."""
-        scene = self._scene_spec
-        courses = {item.name: item for item in reversed(scene.objects) if item.course is not None}
-        if name not in courses:
-            raise UnknownName("object with a <u:course>", name, courses)
-        item = courses[name]
-        assert item.course is not None
-        return (scene.world_from_localized @ item.localized_from_object).transform(item.course.line)
 
     def image_view(
         self, name: str, content: ImageContent, size: tuple[int, int] | None

@@ -1,0 +1,1 @@
+"""The measures that judge what an algorithm reports of its surroundings, one module each."""
