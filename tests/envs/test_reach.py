@@ -13,7 +13,7 @@ import pytest
 import uwsim
 from tests.support.random_steps import check_without_warnings, take_random_steps
 from uwsim.base.geometry import Pose
-from uwsim.benchmark.measures import MEASURES, GraspSpec, ReachSpec
+from uwsim.benchmark.measures import MEASURES, GraspSpec, InsertionSpec, ReachSpec
 from uwsim.envs import BenchmarkEnv, make_env
 from uwsim.errors import BadSetting, BenchmarkError, UnknownName
 
@@ -154,7 +154,7 @@ def test_the_measures_of_an_episode_are_those_of_the_benchmark(
     row = dict(zip(names, result.rows[0], strict=True))
     for name, value in info["measures"].items():
         assert value == pytest.approx(row[name], rel=1e-12)
-    assert info["status"] == row["status"] == "timeout"
+    assert info["status"] == row["status"] == "unreached"
     assert (truncated, info["is_success"]) == (True, False)
 
 
@@ -171,11 +171,16 @@ def test_two_thousand_random_steps_give_finite_numbers(task: str) -> None:
 
 
 def test_the_columns_for_rewards_are_in_the_logs() -> None:
-    assert {name for name, spec in MEASURES.items() if spec.columns} == {"u:grasp", "u:reach"}
+    assert {name for name, spec in MEASURES.items() if spec.columns} == {
+        "u:grasp",
+        "u:insertion",
+        "u:reach",
+    }
     with uwsim.load("reach-scene") as simulation:
         world = simulation.world.measure_view
         specs = (
             ReachSpec(name="a", from_="girona500", to="blackbox"),
+            InsertionSpec(name="c", plug="girona500", socket="blackbox"),
             GraspSpec(name="b", target="blackbox", vehicle="girona500", jaw="girona500"),
         )
         for spec in specs:

@@ -31,7 +31,7 @@ from .measure import Measure, MeasureSpec
 class InsertionSpec(MeasureSpec):
     """A ``<u:insertion>`` element of a benchmark file."""
 
-    columns: ClassVar[tuple[str, ...]] = ("value", "force")
+    columns: ClassVar[tuple[str, ...]] = ("force",)
 
     plug: str = element(refers_to="body")
     """The route of the plug: a link of a vehicle, or an object, whose z axis points to its tip."""

@@ -20,8 +20,6 @@ from .measure import Measure, MeasureSpec
 class JointPositionSpec(MeasureSpec):
     """A ``<u:jointPosition>`` element of a benchmark file."""
 
-    columns: ClassVar[tuple[str, ...]] = ("value",)
-
     target: str = element(refers_to="joint")
     """The name of an object with a ``<u:hinge>`` or ``<u:slide>``."""
 
