@@ -11,6 +11,7 @@ from .scenery import arm5e as smooth_arm5e
 from .scenery import (
     cable,
     chain,
+    dock,
     fixtures,
     nets,
     pier,
@@ -117,6 +118,7 @@ SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
     "objects/cable": {"objects/cable": cable.cable},
     "objects/twine": {"objects/twine": cable.twine},
     "objects/chain": {"objects/chain": chain.chain},
+    "objects/docks": {"objects/dock_round": dock.round_, "objects/dock_square": dock.square},
     "objects/fixtures": {
         "objects/plug": fixtures.plug,
         "objects/socket": fixtures.socket,

@@ -70,6 +70,8 @@ class View:
 VIEWS = {
     "objects/cage_panel": View(azimuth=math.radians(-70.0), elevation=math.radians(8.0)),
     "objects/chain": View(azimuth=math.radians(-80.0), elevation=math.radians(12.0)),
+    "objects/dock_round": View(azimuth=math.radians(-140.0), elevation=math.radians(20.0)),
+    "objects/dock_square": View(azimuth=math.radians(-140.0), elevation=math.radians(20.0)),
     "objects/net": View(azimuth=math.radians(-75.0), elevation=math.radians(10.0)),
     "objects/pier": View(azimuth=math.radians(-60.0), elevation=math.radians(6.0)),
     "objects/wreck": View(azimuth=math.radians(-50.0), elevation=math.radians(20.0)),

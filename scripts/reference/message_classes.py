@@ -37,6 +37,7 @@ ROS: dict[str, dict[str, str]] = {
     },
     "geometry_msgs": {
         "Point": "A position [m].",
+        "PointStamped": "A position with its time and frame.",
         "Vector3": "A vector; the message that contains it gives the unit and the frame.",
         "Quaternion": "A rotation; the identity by default (w is 1).",
         "Pose": "A position and an orientation.",

@@ -17,7 +17,14 @@ from .control.formation import FormationP, FormationPI
 from .control.nothing import SilentAlgorithm
 from .control.reach import Reach
 from .direct import Esm, InverseCompositional, SsdEsm
-from .docking import Docking
+from .docking import (
+    Docking,
+    DockingGirona,
+    DockingGironaUsbl,
+    DockingUsbl,
+    Homing,
+    HomingLineOfSight,
+)
 from .ecc import Ecc
 from .frozen import FrozenTracker
 from .grasp import Grasp, GraspBlindClose, GraspP, GraspTruth
@@ -47,6 +54,9 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "cable-no-memory": CableNoMemory,
     "dob-mpc": DobMpc,
     "docking": Docking,
+    "docking-girona": DockingGirona,
+    "docking-girona-usbl": DockingGironaUsbl,
+    "docking-usbl": DockingUsbl,
     "ecc": Ecc,
     "esm": Esm,
     "feedforward": Feedforward,
@@ -57,6 +67,8 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "grasp-blind-close": GraspBlindClose,
     "grasp-p": GraspP,
     "grasp-truth": GraspTruth,
+    "homing": Homing,
+    "homing-los": HomingLineOfSight,
     "ic": InverseCompositional,
     "mpc": Mpc,
     "net-inspection": NetInspection,

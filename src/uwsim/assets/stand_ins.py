@@ -91,6 +91,8 @@ SCENERY: dict[str, StandIn] = {
     "objects/cable": _scenery("objects/cable"),
     "objects/cage_panel": _scenery("objects/nets"),
     "objects/chain": _scenery("objects/chain"),
+    "objects/dock_round": _scenery("objects/docks"),
+    "objects/dock_square": _scenery("objects/docks"),
     "objects/net": _scenery("objects/nets"),
     "objects/pier": _scenery("objects/pier"),
     "objects/pipe_elbow": _scenery("objects/pipes"),

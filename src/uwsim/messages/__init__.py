@@ -26,6 +26,7 @@ from .build import (
 )
 from .geometry_msgs import (
     Point,
+    PointStamped,
     Pose,
     PoseStamped,
     PoseWithCovariance,
@@ -118,6 +119,7 @@ __all__ = [
     "Point",
     "PointCloud2",
     "PointField",
+    "PointStamped",
     "Pose",
     "PoseStamped",
     "PoseWithCovariance",

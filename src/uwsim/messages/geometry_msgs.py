@@ -24,6 +24,15 @@ class Point:
 
 
 @dataclass
+class PointStamped:
+    """A position with its time and frame."""
+
+    header: Header = field(default_factory=Header)
+    point: Point = field(default_factory=Point)
+    __msgtype__: ClassVar[str] = "geometry_msgs/msg/PointStamped"
+
+
+@dataclass
 class Vector3:
     """A vector; the message that contains it gives the unit and the frame."""
 

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ..assets import load_model, paint_model, primitive, unknown_model
 from ..assets.bending import BentLine, bend_model
 from ..assets.conventions import robot_scale, with_z_up
+from ..assets.dock_shape import DockShape, shape_dock
 from ..assets.mesh import Model
 from ..assets.netting import weave_net
 from ..assets.weathering import weather_model
@@ -150,11 +151,19 @@ def placed_model(
 ) -> tuple[Model, npt.NDArray[np.float64]]:
     """Return the model of an object, and ``object_from_mesh`` with its scale, (4, 4) [m].
 
-    The model of a ``<u:course>`` is bent along it, and that of a ``<u:net>`` repeated for its
-    twines, in the frame of the object.
+    The model of a ``<u:course>`` is bent along it, that of a ``<u:net>`` repeated for its twines,
+    and that of a ``<u:dock>`` gets its dimensions, in the frame of the object.
     """
     object_from_mesh = product(np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix)
-    course = spec.course
+    course, dock = spec.course, spec.dock
+    if dock is not None:
+        shape = DockShape(
+            funnel_length=dock.funnel_length,
+            length=dock.length,
+            entrance=(dock.entrance_width, dock.entrance_height),
+            throat=(dock.width, dock.height),
+        )
+        return shape_dock(model, object_from_mesh, shape), np.eye(4)
     if spec.net is not None:
         return weave_net(model, object_from_mesh, spec.net.twines), np.eye(4)
     if course is None:

@@ -35,6 +35,8 @@ MAX_TWINES = 20_000
 """The greatest number of twines of a net before its holes are cut."""
 MIN_TWINE = 0.01
 """The length below which a piece of twine between holes is left out [m]."""
+MAX_DOCK = 100.0
+"""The greatest inner dimension of a dock [m]."""
 MAX_CONTACT_ERROR = 10.0
 """The greatest ``u:contactError`` [m]."""
 
@@ -273,6 +275,37 @@ class NetSpec(Spec):
 
 
 @dataclass(frozen=True, kw_only=True)
+class DockSpec(Spec):
+    r"""A ``<u:dock>``: the inner dimensions of a dock, a funnel before a chamber.
+
+    The x axis of the object points into the dock; its origin is in the middle of the throat, where
+    the funnel meets the chamber. The mesh has the funnel from x = -1 to 0, the chamber from 0 to 1,
+    and the inner sides at distances of 1 from the axis: `objects/dock_square` has four walls,
+    `objects/dock_round` is a cone before a tube. Both are closed behind the chamber. A vertex
+    :math:`(x, y, z)` comes to
+
+    .. math:: (l\, x,\ \tfrac12 w(x)\, y,\ \tfrac12 h(x)\, z)
+
+    with the length l of funnel or chamber, and the width w and height h there. Walls are thicker
+    where the dock is wider. Not modelled: walls through which water flows, and a latch; see
+    `<u:dockingMagnet>`.
+    """
+
+    entrance_width: float = element(namespaced=True, exclusive_minimum=0.0, maximum=MAX_DOCK)
+    """The inner width of the funnel's entrance, along y [m]."""
+    entrance_height: float = element(namespaced=True, exclusive_minimum=0.0, maximum=MAX_DOCK)
+    """The inner height of the funnel's entrance, along z [m]."""
+    width: float = element(namespaced=True, exclusive_minimum=0.0, maximum=MAX_DOCK)
+    """The inner width of the chamber, along y [m]."""
+    height: float = element(namespaced=True, exclusive_minimum=0.0, maximum=MAX_DOCK)
+    """The inner height of the chamber, along z [m]."""
+    funnel_length: float = element(namespaced=True, exclusive_minimum=0.0, maximum=MAX_DOCK)
+    """The length of the funnel [m]."""
+    length: float = element(namespaced=True, exclusive_minimum=0.0, maximum=MAX_DOCK)
+    """The length of the chamber [m]."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class ObjectSpec(Spec):
     """An ``<object>`` of a scene; the object called ``terrain`` is the ground."""
 
@@ -323,6 +356,8 @@ class ObjectSpec(Spec):
     net: NetSpec | None = element(namespaced=True, default=None)
     """The panel of net of which the mesh is a piece of twine; without it the mesh is a single
     piece."""
+    dock: DockSpec | None = element(namespaced=True, default=None)
+    """The dimensions of a dock that the mesh gets; without it the mesh keeps its shape."""
     acoustic_material: MaterialName | None = element(namespaced=True, default=None)
     """The material for sonars; without it an object called `terrain` is sand, others are steel."""
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)

@@ -16,6 +16,7 @@ from .sonar.multibeam_sensor import MultibeamSensorSpec
 from .sonar.profiling_sonar import ProfilingSonarSpec
 from .sonar.scanning_sonar import ScanningSonarSpec
 from .sonar.side_scan_sonar import SideScanSonarSpec
+from .usbl import UsblSpec
 from .virtual_camera import VirtualCameraSpec
 from .virtual_range_image import VirtualRangeImageSpec
 
@@ -32,6 +33,7 @@ SENSORS: dict[str, type[SensorSpec]] = {
     f"{{{NAMESPACE}}}imagingSonar": ImagingSonarSpec,
     f"{{{NAMESPACE}}}scanningSonar": ScanningSonarSpec,
     f"{{{NAMESPACE}}}sideScanSonar": SideScanSonarSpec,
+    f"{{{NAMESPACE}}}usbl": UsblSpec,
 }
 """The spec of each sensor element; elements whose spec has no ``bind`` are not simulated."""
 

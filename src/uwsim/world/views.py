@@ -36,7 +36,7 @@ from .parts import (
 
 
 class TimedWorld(Protocol):
-    """The clock and the topics of a simulation, which every view contains."""
+    """The clock and the topics of a simulation, which most views contain."""
 
     @property
     def step(self) -> int:
@@ -253,8 +253,16 @@ class DeviceWorld(TimedWorld, Protocol):
         """
 
 
-class SensorWorld(TimedWorld, Protocol):
+class SensorWorld(Protocol):
     """The view of the simulation for sensors: surfaces, light and sound."""
+
+    @property
+    def time(self) -> float:
+        """The simulation time [s]."""
+
+    @property
+    def bus(self) -> Bus:
+        """The topics and services."""
 
     @property
     def world_from_localized(self) -> Pose:
@@ -263,6 +271,9 @@ class SensorWorld(TimedWorld, Protocol):
     @property
     def compatibility(self) -> frozenset[str]:
         """The names of the active compatibility quirks (`uwsim.base.compatibility`)."""
+
+    def body(self, name: str) -> Body:
+        """Return a vehicle ``a``, link ``a/b`` or object ``c``; raise UnknownName if none."""
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of a name, which the seed of the run determines."""

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...assets.dock_shape import keep_inner_sides
 from ...assets.mesh import Model
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import product, rotate, transform_points
@@ -223,8 +224,12 @@ def contact_mesh(
 def _contact_model(
     scene: SceneSpec, spec: ObjectSpec, physics: PhysicsSpec, load: Callable[[str], Model]
 ) -> tuple[Model, Array]:
-    """Return the model of an object's contacts, and ``object_from_mesh``, (4, 4) [m]."""
-    return placed_model(scene, spec, load(physics.collision_shape or spec.file))
+    """Return the model of an object's contacts, and ``object_from_mesh``, (4, 4) [m].
+
+    Of a dock, these are its inner sides, behind which plates make its walls.
+    """
+    model, matrix = placed_model(scene, spec, load(physics.collision_shape or spec.file))
+    return (model if spec.dock is None else keep_inner_sides(model)), matrix
 
 
 def _vertical_axis(spec: ObjectSpec, scene: SceneSpec) -> Array:

@@ -6,7 +6,7 @@ from ..physical_scene import PhysicalScene
 
 
 class SceneView:
-    """The clock and the bus, which all views but `ForceView` have (`uwsim.world.TimedWorld`)."""
+    """The clock and the bus of most views (`uwsim.world.TimedWorld`)."""
 
     def __init__(self, scene: PhysicalScene) -> None:
         self.bus = scene.bus

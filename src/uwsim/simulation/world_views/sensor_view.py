@@ -9,10 +9,9 @@ from ...base.geometry import Intrinsics, Pose
 from ...sensors.pinhole import cast_depth
 from ...world import WaterSurface
 from ..physical_scene import PhysicalScene
-from .scene_view import SceneView
 
 
-class SensorView(SceneView):
+class SensorView:
     """The view of a running scene for its sensors (`uwsim.world.SensorWorld`).
 
     Args:
@@ -21,13 +20,17 @@ class SensorView(SceneView):
     """
 
     def __init__(self, scene: PhysicalScene, *, is_blind: bool) -> None:
-        super().__init__(scene)
         spec = scene.model.scene
+        self._scene = scene
+        self.bus = scene.bus
+        """The topics and services."""
         self._scenery, self._is_blind = scene.scenery, is_blind
         self.world_from_localized = spec.world_from_localized
         """The pose of L, the frame of the scene file, in W."""
         self.compatibility = scene.model.compatibility
         """The compatibility quirks that are on."""
+        self.body = scene.bodies.find
+        """The function that returns a vehicle, link or object by name."""
         self.rays = scene.rays
         """The ray casting against the scene."""
         self.sea_water = spec.ocean_state.sea_water
@@ -44,6 +47,11 @@ class SensorView(SceneView):
         self.water_velocity = scene.water.velocity
         self.render = scene.scenery.render
         self.stream = scene.stream
+
+    @property
+    def time(self) -> float:
+        """The simulation time [s]."""
+        return self._scene.time
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
         """Return the distance along the optical axis for each pixel, (h, w) [m].

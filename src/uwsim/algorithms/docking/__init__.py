@@ -1,0 +1,14 @@
+"""Guidance into docks: along the axis of a dock, and homing of a torpedo-shaped vehicle."""
+
+from .homing import Homing, HomingLineOfSight
+from .observed import Docking, DockingGirona
+from .usbl import DockingGironaUsbl, DockingUsbl
+
+__all__ = [
+    "Docking",
+    "DockingGirona",
+    "DockingGironaUsbl",
+    "DockingUsbl",
+    "Homing",
+    "HomingLineOfSight",
+]

@@ -1,0 +1,97 @@
+"""``docking-usbl`` and ``docking-girona-usbl``: guidance into a dock by sensors of a real vehicle.
+
+A beacon at the back of the dock replies to a USBL (`beacon`). With IMU, DVL and depth sensor the
+vehicle knows where it is relative to the beacon between replies, and moves by the law of
+`guidance`. The heading of the dock, and the place of the beacon in it, are known.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import ClassVar
+
+import numpy as np
+
+from ...bus import Node
+from ...errors import UnknownName
+from ...messages import Empty, Twist, TwistStamped, Vector3, header
+from ..policy import START_SERVICE
+from ..tracker_node import merge_parameters
+from .beacon import BEACON_PARAMETERS, SENSOR_TOPICS, BeaconNavigator
+from .guidance import GAINS, GIRONA_GAINS, DockingGains, DockingGuidance
+
+
+class DockingUsbl:
+    """A guidance into a dock by an acoustic beacon, IMU, DVL and depth sensor."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {
+        "axis": 0.0,
+        **GAINS,
+        **BEACON_PARAMETERS,
+        "beacon_ahead": 0.235,
+        "beacon_below": 0.03,
+        "period": 0.05,
+        "usbl_x": 0.23,
+        "dvl_x": -0.1,
+        "dvl_z": 0.1,
+        **SENSOR_TOPICS,
+        "twist_topic": "/bluerov2/twist",
+    }
+    """The heading of the dock's ``axis`` [rad], the gains (`DockingGains`), the numbers of
+    `beacon`, the place of the beacon ahead of and below the base of the docked vehicle [m], the
+    ``period`` of the commands [s], and the topics."""
+
+    def start(self, node: Node) -> None:
+        """Read the parameters, connect to topics, and start the benchmark."""
+        parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        number = {name: float(parameters[name]) for name in self.PARAMETERS if "topic" not in name}
+        self._node, self._axis, self._period = node, number["axis"], number["period"]
+        self._guidance = DockingGuidance(DockingGains(**{name: number[name] for name in GAINS}))
+        distance = number["beacon_ahead"]
+        self._beacon_from_goal = np.array(
+            [
+                distance * math.cos(self._axis),
+                distance * math.sin(self._axis),
+                number["beacon_below"],
+            ]
+        )  # north, east, down (3,) [m]
+        self._publish = node.publisher(str(parameters["twist_topic"]), TwistStamped)
+        self._navigator = BeaconNavigator(node, parameters)
+        node.create_timer(self._period, self._send_command)
+        with suppress(UnknownName):
+            node.call(START_SERVICE, Empty())
+
+    def _send_command(self) -> None:
+        if not self._navigator.is_ready:
+            return
+        north, east, down = (self._navigator.offset - self._beacon_from_goal).tolist()
+        heading = self._navigator.heading
+        cosine, sine = math.cos(heading), math.sin(heading)
+        error = np.array([cosine * north + sine * east, cosine * east - sine * north, down])
+        velocity, rate = self._guidance.command(error, self._axis - heading, self._period)
+        x, y, z = velocity.tolist()
+        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=rate))
+        self._publish(TwistStamped(header=header(self._node.now), twist=twist))
+
+
+class DockingGironaUsbl(DockingUsbl):
+    """The guidance of ``docking-usbl`` for a Girona 500 in the dock of ``docking-girona``."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {
+        **DockingUsbl.PARAMETERS,
+        **GIRONA_GAINS,
+        "beacon_ahead": 1.0,
+        "beacon_below": 0.395,
+        "usbl_x": 0.7,
+        "usbl_z": 0.395,
+        "dvl_x": 0.5,
+        "dvl_z": 0.8,
+        "imu_topic": "/girona500/imu",
+        "dvl_topic": "/girona500/dvl",
+        "depth_topic": "/girona500/depth",
+        "usbl_topic": "/girona500/usbl",
+        "twist_topic": "/girona500/twist",
+    }
+    """The parameters of `DockingUsbl`, with the numbers and topics of the larger vehicle."""
