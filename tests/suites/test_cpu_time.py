@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 
-from uwsim.suites.campaign import _cpu_time
+from uwsim.suites.campaign import _cpu_time, cpu_time_text
 
 NESTED = (
     "import subprocess, sys; "
@@ -24,3 +24,12 @@ def test_the_time_of_an_ended_child_of_a_living_child_counts() -> None:
     assert _cpu_time() - before > 0.1
     child.communicate("")
     assert child.returncode == 0
+
+
+def test_a_time_is_written_in_a_readable_unit() -> None:
+    assert [cpu_time_text(t) for t in (0.4, 42.0, 450.0, 11160.0)] == [
+        "0 s",
+        "42 s",
+        "7.5 min",
+        "3.1 h",
+    ]

@@ -117,7 +117,7 @@ def test_an_entry_that_differs_from_its_replay_is_excluded_until_it_is_changed(
     ("changes", "message"),
     [
         ({"suite": "other"}, "it has the suite other"),
-        ({"is_short": True}, "one seed and level a task; this page compares"),
+        ({"is_short": True}, "one level a task; this page compares"),
         ({"tasks": {}}, "it has no task"),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -34,12 +35,15 @@ def test_the_command_writes_entries_for_a_page(
 ) -> None:
     words = ["suite", "table", str(small_suite), "--short", "--workers", "0"]
     assert main([*words, "--out", str(tmp_path)]) == 0
-    assert "h of CPU time in total" in capsys.readouterr().out
-    kinds = {path.name: load_submission(path).kind for path in tmp_path.iterdir()}
+    assert re.search(r"\d+ s of CPU time in total", capsys.readouterr().out)
+    submissions = {path.name: load_submission(path) for path in tmp_path.iterdir()}
+    kinds = {name: submission.kind for name, submission in submissions.items()}
     assert kinds == {
         "baseline-1": "baseline",
         "baseline-2": "baseline",
         "expert": "expert",
         "control": "control",
     }
+    assert {submission.seeds.count for submission in submissions.values()} == {1}
+    assert submissions["baseline-2"].tasks["far-v1"].algorithm == "position-pi"
     assert len(collect_submissions(tmp_path).candidates) == 4

@@ -28,6 +28,7 @@ CODE_FOLDER = "code"
 """The folder of the files of the user's algorithm."""
 TIMING_FOLDER = "timing"
 """The folder with the CPU time of each shard."""
+SECONDS_PER_MINUTE, SECONDS_PER_HOUR = 60.0, 3600.0
 RESERVED_FOLDERS = (CODE_FOLDER, TIMING_FOLDER)
 
 
@@ -131,6 +132,15 @@ def total_cpu_time(out: Path) -> float:
     """Return the CPU time of all calls that ran trials of an entry [s]."""
     paths = sorted((out / TIMING_FOLDER).glob("*.json"))
     return sum(_read_seconds(path) for path in paths if re.fullmatch(r"[\w-]+\.json", path.name))
+
+
+def cpu_time_text(seconds: float) -> str:
+    """Return a CPU time in a readable unit: ``42 s``, ``7.5 min``, ``3.1 h``."""
+    if seconds < SECONDS_PER_MINUTE:
+        return f"{seconds:.0f} s"
+    if seconds < SECONDS_PER_HOUR:
+        return f"{seconds / SECONDS_PER_MINUTE:.1f} min"
+    return f"{seconds / SECONDS_PER_HOUR:.1f} h"
 
 
 def _read_seconds(path: Path) -> float:

@@ -38,6 +38,13 @@ class Seeds:
     beacon: str = ""
     """The public text from which the seeds of the split test follow; empty for a public split."""
 
+    @property
+    def text(self) -> str:
+        """The seeds in words, such as ``seeds 0 to 9``."""
+        if self.count == 1:
+            return f"seed {self.first}"
+        return f"seeds {self.first} to {self.first + self.count - 1}"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
@@ -52,7 +59,7 @@ class Entry:
     seeds: Seeds
     """The seeds."""
     is_short: bool = False
-    """A flag for one seed and the middle level of each task."""
+    """A flag for the middle level of each task alone."""
     settings: tuple[str, ...] = ()
     """Settings ``algorithm.NAME=VALUE``."""
     client: ClientSpec | None = None
@@ -69,7 +76,7 @@ class Entry:
             benchmark=self.suite.benchmark_of(task),
             algorithm=None if self.client is not None else self.algorithms[task.name],
             seed=self.seeds.first,
-            repeat=1 if self.is_short else self.seeds.count,
+            repeat=self.seeds.count,
             levels=read_levels(task),
             settings=self.settings,
             track=self.track.rule,

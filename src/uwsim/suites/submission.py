@@ -86,7 +86,7 @@ class Submission:
     seeds: Seeds
     """The seeds."""
     is_short: bool = False
-    """True if it has one seed and one level of each task."""
+    """True if it has the middle level of each task alone."""
     is_human: bool = False
     """True if a human piloted."""
     settings: tuple[str, ...] = ()

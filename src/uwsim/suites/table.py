@@ -42,6 +42,16 @@ def reference_entries(suite: Suite, seeds: Seeds, *, is_short: bool) -> Iterator
             )
 
 
+def describe_family(family: str) -> str:
+    """Return what the algorithms of a family have in common, in one sentence."""
+    kind, _, number = family.partition("-")
+    if kind == "baseline":
+        return f"Baseline {number} of each task; the tables of the tasks name the algorithms."
+    if kind == "expert":
+        return "The scripted expert of each task that has one; it may use the truth."
+    return "The control condition of each task, which does not act, or does not look."
+
+
 def find_reference(task: TaskSpec, family: str) -> str | None:
     """Return the algorithm of a task in a family; None without one."""
     kind, _, number = family.partition("-")

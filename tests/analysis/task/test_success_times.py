@@ -15,14 +15,15 @@ from uwsim.results.result import Result
 from uwsim.statistics import TrialTime
 
 
-def with_statuses(statuses: list[str], ends: list[float]) -> Result:
-    """Return a task of one level, a row for each status."""
+def with_statuses(statuses: list[str], ends: list[float], done_time: float | None = None) -> Result:
+    """Return a task of one level, a row for each status, all with the same ``time_done`` [s]."""
     result = grasping_result(len(statuses))
     rows = [row for row in result.rows if row[2:4] == (0.0, 0.0)]
     return replace(
         result,
         rows=tuple(
-            (*row[:-2], status, end) for row, status, end in zip(rows, statuses, ends, strict=True)
+            (*row[:6], done_time, *row[7:-2], status, end)
+            for row, status, end in zip(rows, statuses, ends, strict=True)
         ),
         missing_values=(),
     )
@@ -41,6 +42,14 @@ def test_failures_never_succeed_and_time_limits_are_censored() -> None:
     assert limit == 240.0
     assert [restricted_time(trial, limit) for trial in trials] == [40.0, 240.0, 240.0, None]
     assert time_limit(trials[2:3]) is None
+
+
+def test_a_success_counts_from_when_it_held_not_from_the_end_of_the_level() -> None:
+    trials = success_times(with_statuses(["ok", "left"], [60.0, 60.0], done_time=12.5))
+    assert trials == (
+        TrialTime(time=12.5, has_succeeded=True),
+        TrialTime(time=math.inf, has_succeeded=False),
+    )
 
 
 def test_the_times_of_a_sequence_are_summed_over_its_levels() -> None:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from ...results.result import Result
 from ...statistics import TrialTime
 from ..plots import repeats_of
+from .cells import JUDGING_DETAIL
 
 UNDECIDED_STATUSES = ("timeout", "simulation error")
 """The statuses of trials that end without success or failure: they are censored."""
@@ -18,7 +19,8 @@ def success_times(result: Result) -> tuple[TrialTime, ...] | None:
 
     The time is that from the beginning of the level to its end. It counts as follows:
 
-    - ``ok``: the trial succeeded at this time.
+    - ``ok``: the trial succeeded at this time, or at the latest ``time_done`` of its measures
+      [s after their start]: a level may go on after the success (`Outcome`).
     - ``timeout``, ``simulation error``: without success up to this time, and unknown after it.
     - any other status (``collision``, ``dropped``, ``lost``, ...): the trial failed for good. It
       counts as without success for ever, so its time is infinite. Censored at its end, it would
@@ -31,13 +33,14 @@ def success_times(result: Result) -> tuple[TrialTime, ...] | None:
         return None
     statuses = result.values(status_columns[0].name)
     durations = _durations(result, result.numbers(time_columns[0].name))
-    return tuple(
-        TrialTime(
-            time=duration if status == "ok" or status in UNDECIDED_STATUSES else math.inf,
-            has_succeeded=status == "ok",
-        )
-        for status, duration in zip(statuses, durations, strict=True)
-    )
+    trials = []
+    for status, duration, done_time in zip(statuses, durations, _done_times(result), strict=True):
+        if status == "ok":
+            trials.append(TrialTime(time=min(duration, done_time), has_succeeded=True))
+        else:
+            time = duration if status in UNDECIDED_STATUSES else math.inf
+            trials.append(TrialTime(time=time, has_succeeded=False))
+    return tuple(trials)
 
 
 def time_limit(trials: Sequence[TrialTime]) -> float | None:
@@ -54,6 +57,22 @@ def restricted_time(trial: TrialTime, limit: float) -> float | None:
     if not trial.has_succeeded and trial.time < limit - 1e-6:
         return None
     return min(trial.time, limit)
+
+
+def _done_times(result: Result) -> list[float]:
+    """Return the latest ``time_done`` of the measures of each row [s]; infinite without one."""
+    names = [
+        column.name
+        for column in result.columns_of_kind("detail")
+        if column.name.endswith(f".{JUDGING_DETAIL}")
+    ]
+    columns = [result.numbers(name) for name in names]
+    if not columns:
+        return [math.inf] * len(result.rows)
+    return [
+        max((time for time in times if time is not None), default=math.inf)
+        for times in zip(*columns, strict=True)
+    ]
 
 
 def _durations(result: Result, end_times: Sequence[float | None]) -> list[float]:

@@ -120,6 +120,11 @@ class SeedOptions:
         option(RUN, "--short", help="One seed and the middle level of each task, as a trial."),
     ] = False
 
+    @property
+    def count(self) -> int | None:
+        """The number of seeds; None for all of the split."""
+        return 1 if self.is_short else self.seeds
+
     def read(self, suite: Suite) -> Seeds:
         """Return the seeds; raise BadSetting or UnknownName."""
         from ...suites.seeds import draw_test_seeds, public_seeds
@@ -133,9 +138,9 @@ class SeedOptions:
                     f"--split {split}: " + (f"add {name}." if is_test else f"leave out {name}.")
                 )
         if is_test:
-            count = self.seeds or suite.spec.splits[0].count
+            count = self.count or suite.spec.splits[0].count
             return draw_test_seeds(suite, self.date or "", self.beacon or "", count)
-        return public_seeds(suite, split, self.seeds)
+        return public_seeds(suite, split, self.count)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -255,7 +260,7 @@ def run_prepared(
     """Run the trials of an entry, and write its submission."""
     from ...campaigns.shard import drop_shard
     from ...runs.execute import Execution
-    from ...suites.campaign import execute_tasks
+    from ...suites.campaign import cpu_time_text, execute_tasks
     from ...suites.entry import plan_entry, prepare_entry
     from ...suites.submission import save_submission, submission_of
 
@@ -295,7 +300,7 @@ def run_prepared(
     )
     path = save_submission(submission, out)
     standard_output().print(result_table(entry, outcome.results))
-    print(f"written: {path}; {submission.cpu_s:.0f} s of CPU time")
+    print(f"written: {path}; {cpu_time_text(submission.cpu_s)} of CPU time")
 
 
 def check_pilot(plans: Sequence[tuple[TaskSpec, Plan]], options: SuiteRunOptions) -> None:

@@ -63,16 +63,17 @@ def write_reference_table(
     """
     from ...campaigns.shard import drop_shard, read_shard
     from ...runs.execute import Execution
-    from ...suites.campaign import execute_tasks, total_cpu_time
+    from ...suites.campaign import cpu_time_text, execute_tasks, total_cpu_time
     from ...suites.entry import plan_entry, prepare_entry
     from ...suites.seeds import public_seeds
-    from ...suites.submission import save_submission, submission_of
+    from ...suites.submission import Card, save_submission, submission_of
     from ...suites.suite import find_suite, read_suite
-    from ...suites.table import reference_entries
+    from ...suites.table import describe_family, reference_entries
 
     source = read_suite(find_suite(suite).absolute())
     source = source.select_tasks([name for name in (options.tasks or "").split(",") if name])
-    seeds = public_seeds(source, options.split or source.spec.splits[0].name, options.seeds)
+    count = 1 if options.is_short else options.seeds
+    seeds = public_seeds(source, options.split or source.spec.splits[0].name, count)
     shard = None if options.shard is None else read_shard(options.shard)
     executor, out = options.processes.executor(), options.out.absolute()
     cpu_s = 0.0
@@ -91,7 +92,14 @@ def write_reference_table(
         cpu_s += total_cpu_time(out / family)
         if shard is None:
             kind = family.partition("-")[0]
-            submission = submission_of(entry, runs, outcome.results, name=family, kind=kind)
+            submission = submission_of(
+                entry,
+                runs,
+                outcome.results,
+                name=family,
+                kind=kind,
+                card=Card(description=describe_family(family)),
+            )
             save_submission(submission, out / family)
             print(f"{family}:")
             standard_output().print(result_table(entry, outcome.results))
@@ -99,4 +107,4 @@ def write_reference_table(
         words = shlex.join(["uwsim", *drop_shard(context.obj)])
         print(f"shard {shard} is finished in {out}; when all are finished: {words}")
     else:
-        print(f"written: {out}; {cpu_s / 3600:.2f} h of CPU time in total")
+        print(f"written: {out}; {cpu_time_text(cpu_s)} of CPU time in total")

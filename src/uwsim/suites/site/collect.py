@@ -204,9 +204,8 @@ def _select_equal(candidates: Sequence[Candidate]) -> tuple[list[Candidate], lis
 def _condition(submission: Submission) -> str:
     """Return the suite and the seeds of a submission in words."""
     seeds = submission.seeds
-    last_seed = seeds.first + seeds.count - 1
-    length = "one seed and level a task" if submission.is_short else "all levels"
-    return f"the suite {submission.suite}, seeds {seeds.first} to {last_seed}, {length}"
+    length = "one level a task" if submission.is_short else "all levels"
+    return f"the suite {submission.suite}, {seeds.text}, {length}"
 
 
 def _group_tasks(

@@ -80,8 +80,9 @@ def draw_endings(task: OverviewTask) -> Figure:
 def draw_times(task: OverviewTask) -> Figure | None:
     """Draw the share of trials that succeeded by each time (Kaplan and Meier); None without times.
 
-    There is none either if all successes are at the end of a level, which has a fixed length. All
-    levels together. Their trials are not independent, so there are no intervals.
+    There is none either if all successes are at the end of a level, which has a fixed length. The
+    limit is that of all submissions. All levels together. Their trials are not independent, so
+    there are no intervals.
     """
     curves = []
     for entry in task.entries:

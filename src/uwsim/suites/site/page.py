@@ -19,11 +19,11 @@ from ...results.result import Result
 from ...results.table import exact_decimals, number_text
 from ...statistics import Rate
 from ...version import __version__
+from ..campaign import cpu_time_text
 from ..suite import TrackSpec
 from .collect import Candidate, Leaderboard
 from .figures import draw_endings, draw_times, endings, png, statuses_of
 
-SECONDS_PER_HOUR = 3600.0
 LINK = re.compile(r"https?://[^\s<>\"']{1,300}", re.ASCII)
 """The pattern of an address that becomes a link; others are left out."""
 
@@ -51,7 +51,7 @@ def render(board: Leaderboard, links: Links) -> str:
     """
     names = [candidate.name for candidate in board.candidates]
     n_trials = sum(t.n_trials for c in board.candidates for t in c.submission.tasks.values())
-    hours = sum(c.submission.cpu_s for c in board.candidates) / SECONDS_PER_HOUR
+    cpu_s = sum(c.submission.cpu_s for c in board.candidates)
     first_submission = board.candidates[0].submission
     seeds = first_submission.seeds
     return template("suite.html.j2").render(
@@ -62,9 +62,9 @@ def render(board: Leaderboard, links: Links) -> str:
             _card(
                 "trials",
                 f"{n_trials}",
-                f"seeds {seeds.first} to {seeds.first + seeds.count - 1}, split {seeds.split}",
+                f"{seeds.text}, split {seeds.split}",
             ),
-            _card("CPU time", f"{hours:.2f} h", "of all trials, on the authors' machines"),
+            _card("CPU time", cpu_time_text(cpu_s), "of all trials, on the authors' machines"),
             _card("uwsim", first_submission.version, "version of the first submission"),
         ],
         rankings=_rankings(board),
@@ -132,7 +132,7 @@ def _rank_rows(board: Leaderboard, members: Sequence[Candidate]) -> list[dict[st
                 "kind": f"{submission.kind}, human" if submission.is_human else submission.kind,
                 "track": submission.track,
                 "n_tasks": f"{len(submission.tasks)} of {len(board.tasks)}",
-                "cpu": f"{submission.cpu_s / SECONDS_PER_HOUR:.2f}",
+                "cpu": cpu_time_text(submission.cpu_s),
                 "verdict": by_name[name].verdict,
                 **_rank_cells(ranks, i),
             }
@@ -184,7 +184,10 @@ def _task(task: OverviewTask, board: Leaderboard, links: Links) -> dict[str, Any
         "description": specs[task.name].description if task.name in specs else "",
         "summary": f"{len(task.entries)} submissions, {n_trials} trials.",
         "level_heads": heads,
-        "entries": [entry.name for entry in task.entries],
+        "entries": [
+            {"name": entry.name, "algorithm": entry.result.run.algorithm_label}
+            for entry in task.entries
+        ],
         "rows": rows,
         "figures": figures,
         "statuses": statuses,
@@ -238,7 +241,7 @@ def _submission(candidate: Candidate, i: int) -> dict[str, Any]:
         ("author", submission.card.author),
         ("kind", submission.kind + (", piloted by a human" if submission.is_human else "")),
         ("track", submission.track),
-        ("seeds", f"{seeds.split}, {seeds.first} to {seeds.first + seeds.count - 1}"),
+        ("seeds", f"{seeds.split}, {seeds.text}"),
         *((("date and text", f"{seeds.date}, {seeds.beacon}"),) if seeds.date else ()),
         ("parameters", " ".join(submission.settings)),
         (
@@ -246,7 +249,7 @@ def _submission(candidate: Candidate, i: int) -> dict[str, Any]:
             f"{compute.get('class', '')}: {compute.get('cpu', '')}, "
             f"{compute.get('cores', '')} cores, GPU {compute.get('gpu', '')}",
         ),
-        ("CPU time", f"{submission.cpu_s / SECONDS_PER_HOUR:.2f} h"),
+        ("CPU time", cpu_time_text(submission.cpu_s)),
         ("versions", environment),
         ("rows run again", candidate.verdict),
         ("suite file", submission.suite_hash),
