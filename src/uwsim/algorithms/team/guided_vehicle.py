@@ -6,6 +6,8 @@ at an unknown place, which is the mean of all fixes less the way since its start
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...base.geometry import Array
@@ -84,7 +86,7 @@ class GuidedVehicle:
         goal = self.position if self._goal is None else self._goal
         state = TrackingState(
             error=goal - self.position,
-            heading_error=float(np.arctan2(*_sine_and_cosine(self._heading - heading))),
+            heading_error=math.atan2(*_sine_and_cosine(self._heading - heading)),
             velocity=self.velocity,
             rotation=rotation,
             goal_velocity=np.zeros(3),
