@@ -50,6 +50,7 @@ BLIND = (
     "survey-truth",
     "scripted",
     "valve",
+    "valve-rigid",
     "valve-truth",
 )
 LOOKING = [name for name in ALGORITHMS if name not in BLIND and not name.startswith("grasp")]

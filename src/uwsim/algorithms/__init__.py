@@ -30,7 +30,7 @@ from .frozen import FrozenTracker
 from .grasp import Grasp, GraspBlindClose, GraspP, GraspTruth
 from .inspection.net_inspection import NetInspection, NetInspectionFixed
 from .orb import Orb
-from .panel import Plug, PlugRigid, PlugTruth, Valve, ValveTruth
+from .panel import Plug, PlugRigid, PlugTruth, Valve, ValveRigid, ValveTruth
 from .pilot import Pilot
 from .pipe.cable_camera import CableCamera, CableNoMemory
 from .pipe.camera_line import PipeCamera
@@ -99,6 +99,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "survey-no-dvl": SurveyNoDvl,
     "survey-truth": SurveyTruth,
     "valve": Valve,
+    "valve-rigid": ValveRigid,
     "valve-truth": ValveTruth,
 }
 """The bundled algorithms by name, in alphabetical order."""

@@ -7,7 +7,12 @@ import pytest
 
 import uwsim
 from uwsim.algorithms.grasp import BoxPose
-from uwsim.algorithms.panel.valve import HANDLE, valve_model
+from uwsim.algorithms.grasp.arm import Arm5e
+from uwsim.algorithms.grasp.station import StationController
+from uwsim.algorithms.grasp.task import Task
+from uwsim.algorithms.grasp.vehicle_interface import VehicleInterface
+from uwsim.algorithms.panel.valve import HANDLE, Valve, ValveRigid, valve_model
+from uwsim.algorithms.panel.valve_phases import OVERTRAVEL, TURN
 
 
 def test_the_handle_is_where_the_model_of_the_panel_has_it() -> None:
@@ -17,6 +22,38 @@ def test_the_handle_is_where_the_model_of_the_panel_has_it() -> None:
     point = valve_model().grasp_point(pose)
     bar = valve.position - np.array([0.0, 0.0, HANDLE[2] - 0.25])
     np.testing.assert_allclose(point, bar, atol=1e-6)
+
+
+def turn(algorithm: type[Valve]) -> tuple[str, float, float]:
+    """Turn with nothing in the jaw, and joints that stay where they are.
+
+    Returns:
+        The next phase, its time [s], and the angle to which the wrist was commanded [rad].
+    """
+    vehicle = VehicleInterface(
+        StationController(kp=0.6, ki=0.03, feeds_forward=True, limit=0.3), Arm5e()
+    )
+    valve = algorithm()
+    task = Task(vehicle, valve.perception(), valve.model(), algorithm.PARAMETERS, lambda text: None)
+    phase = algorithm.PHASES["turn"]()
+    phase.enter(task)
+    for step in range(300):
+        task.now = 0.1 * step
+        if (following := phase.step(task)) is not None:
+            return following, task.now, float(vehicle.posture[3])
+    raise AssertionError("the turn has no end")
+
+
+def test_without_feedback_the_wrist_turns_for_its_time_with_nothing_in_the_jaw() -> None:
+    following, time, angle = turn(ValveRigid)
+    assert following == "release"
+    assert time == pytest.approx((TURN + OVERTRAVEL) / 0.25 + 2.0, abs=0.15)
+    assert angle == pytest.approx(-(TURN + OVERTRAVEL))
+
+
+def test_with_feedback_the_turn_fails_at_once_with_nothing_in_the_jaw() -> None:
+    following, time, angle = turn(Valve)
+    assert (following, time, angle) == ("retry", 0.0, 0.0)
 
 
 @pytest.mark.slow

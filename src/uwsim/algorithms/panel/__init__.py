@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from .plug import Plug, PlugRigid, PlugTruth
-from .valve import Valve, ValveTruth
+from .valve import Valve, ValveRigid, ValveTruth
 
-__all__ = ["Plug", "PlugRigid", "PlugTruth", "Valve", "ValveTruth"]
+__all__ = ["Plug", "PlugRigid", "PlugTruth", "Valve", "ValveRigid", "ValveTruth"]

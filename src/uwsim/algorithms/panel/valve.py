@@ -2,8 +2,9 @@
 
 It has the sensors, the navigation, the station keeping and the phases of `grasp` up to the grip.
 The camera sees the orange arrow on the panel, whose place among the valves is known; so are the
-height of the panel over the seabed and the position in which the valve is closed. ``valve-truth``
-reads the true poses of vehicle and panel instead: an upper bound, as ``grasp-truth``.
+height of the panel over the seabed and the position in which the valve is closed. ``valve-rigid``
+has the same eyes, and closes and turns for fixed times. ``valve-truth`` reads the true poses of
+vehicle and panel instead: an upper bound, as ``grasp-truth``.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import ClassVar
 from ..grasp import BoxPose, ColourDetector, ConvexObject, ConvexPerception, Grasp, GraspTruth
 from ..grasp.phases import Phase
 from .arrow import panel_model
-from .valve_phases import VALVE_PHASES
+from .valve_phases import RIGID_PHASES, VALVE_PHASES
 
 HANDLE = (0.28, -0.22, 0.32)
 """The centre of the handle's bar, in the frame of the panel [m]."""
@@ -42,6 +43,12 @@ class Valve(Grasp):
     def perception(self) -> ConvexPerception:
         """Return the perception of the panel, by the outline of its arrow."""
         return ConvexPerception(ColourDetector(), valve_model())
+
+
+class ValveRigid(Valve):
+    """The algorithm valve without feedback of the jaw's torque and of the angle of the turn."""
+
+    PHASES: ClassVar[Mapping[str, type[Phase]]] = RIGID_PHASES
 
 
 class ValveTruth(GraspTruth):

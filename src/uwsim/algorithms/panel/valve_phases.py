@@ -8,6 +8,8 @@ turn        turn the wrist, keep the position                    release, or ret
 release     open the jaw, rise                                   done
 retry       open the jaw, rise, wait for sightings               station, or aborted
 ==========  ===================================================  =======================
+
+Without feedback, *close* and *turn* last for fixed times, and do not fail.
 """
 
 from __future__ import annotations
@@ -32,6 +34,9 @@ OVERTRAVEL = 0.35
 yields to the friction of the valve, and the handle has play in the jaw."""
 TOLERANCE = 0.03
 """The angle before `TURN` at which the turn ends [rad]."""
+CLOSE_TIME, REST_TIME = 3.0, 2.0
+"""Without feedback: the time for which the jaw closes, and the time between the last command to the
+wrist and the release [s]."""
 
 
 class CloseOnHandlePhase(ClosePhase):
@@ -56,21 +61,43 @@ class TurnPhase(Phase):
 
     def step(self, task: Task) -> str | None:
         """Turn the goal of the wrist, and check that the jaw holds the handle."""
-        vehicle = task.vehicle
-        task.set_goal(self._position)
-        lead = min(SPEED * task.phase_time, TURN + OVERTRAVEL)
-        vehicle.posture = self._posture - np.array([0.0, 0.0, 0.0, lead])
-        if not vehicle.jaw.holds_object:
+        self.turn_wrist(task)
+        if not task.vehicle.jaw.holds_object:
             task.failure = "slipped: the jaw closed while the handle was turned"
             return "retry"
         turn_angle = self._start_heading - self._heading(task)
         turn_angle -= 2.0 * math.pi * math.floor(turn_angle / (2.0 * math.pi) + 0.25)
         return "release" if turn_angle > TURN - TOLERANCE else None
 
+    def turn_wrist(self, task: Task) -> None:
+        """Keep the position, and turn the goal of the wrist at `SPEED`, beyond `TURN`."""
+        task.set_goal(self._position)
+        lead = min(SPEED * task.phase_time, TURN + OVERTRAVEL)
+        task.vehicle.posture = self._posture - np.array([0.0, 0.0, 0.0, lead])
+
     @staticmethod
     def _heading(task: Task) -> float:
         """Return the heading of the closing axis of the jaw [rad]."""
         return task.vehicle.heading + float(task.vehicle.joints[3])
+
+
+class CloseForTimePhase(CloseOnHandlePhase):
+    """The jaw closes for a fixed time, whatever is in it."""
+
+    def step(self, task: Task) -> str | None:
+        """Wait for `CLOSE_TIME`."""
+        task.keep_station(0.0, is_settled=True)
+        return self.next_phase if task.phase_time > CLOSE_TIME else None
+
+
+class TurnForTimePhase(TurnPhase):
+    """The wrist turns for a fixed time, whatever turns with it."""
+
+    def step(self, task: Task) -> str | None:
+        """Turn the goal of the wrist, and wait for `REST_TIME` at its end."""
+        self.turn_wrist(task)
+        end = (TURN + OVERTRAVEL) / SPEED + REST_TIME
+        return "release" if task.phase_time > end else None
 
 
 class ReleasePhase(Phase):
@@ -100,4 +127,10 @@ VALVE_PHASES: dict[str, type[Phase]] = {
     "turn": TurnPhase,
     "release": ReleasePhase,
 }
-"""The phases by name."""
+"""The phases by name, with feedback of the jaw's torque and of the angle."""
+RIGID_PHASES: dict[str, type[Phase]] = {
+    **VALVE_PHASES,
+    "close": CloseForTimePhase,
+    "turn": TurnForTimePhase,
+}
+"""The phases by name, without that feedback."""
