@@ -132,11 +132,16 @@ def scene_of_level(scene: SceneSpec, updater: SceneUpdaterSpec, level: Level) ->
     """
     for spec, (_, value) in zip(chain(updater), level.values, strict=True):
         if isinstance(spec, SettingUpdaterSpec):
-            scene = _set_number(scene, spec.path, value)
+            scene = set_number(scene, spec.path, value)
     return scene
 
 
-def _set_number(scene: SceneSpec, path: str, value: float) -> SceneSpec:
+def set_number(scene: SceneSpec, path: str, value: float) -> SceneSpec:
+    """Return the scene with another number at a path.
+
+    Raises:
+        BadSetting: the path is unknown, its value is not one number, or ``<u:vary>`` draws it.
+    """
     location = locate(scene, path)
     check_effect(location)
     if not location.is_number:
@@ -168,7 +173,7 @@ def check_scene_settings(
             )
         try:
             for value in updater.values():
-                _set_number(scene, updater.path, value)
+                set_number(scene, updater.path, value)
         except BadSetting as error:
             diagnostics.error(updater, f"<path> {updater.path}: {error}".rstrip("."))
     return diagnostics.to_list()

@@ -198,6 +198,21 @@ def find_scene_name(benchmark: Path) -> list[str]:
     return [] if scene is None else [str(scene).strip()]
 
 
+def find_level_settings(benchmark: Path) -> dict[str, str]:
+    """Return the paths of the scene's numbers that the levels of a benchmark file set, by column.
+
+    The levels of ``<u:settingUpdater>`` set them. No plugin of the file is loaded.
+    """
+    from ..benchmark.updaters.setting_updater import column_of
+    from ..schema import NAMESPACE, parse
+
+    paths = {}
+    for updater in parse(benchmark).root.iter(f"{{{NAMESPACE}}}settingUpdater"):
+        path = str(updater.findtext("path", "")).strip()
+        paths[str(updater.get(f"{{{NAMESPACE}}}column") or column_of(path))] = path
+    return paths
+
+
 def _plugin_paths(result: Result, benchmark: Path) -> list[str]:
     names = [*plugin_names(benchmark), *(name for name, _ in result.inputs.plugins or ())]
     return [str(benchmark.parent / name) for name in names]

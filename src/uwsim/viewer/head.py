@@ -65,11 +65,12 @@ multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u
     suns        {name: {direction, colour}}
     ambient, specular    constants of the lighting (`uwsim.rendering.water`)
     localized   pose in W of the localized frame L, the frame of the scene file
-    trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses, surface,
-                  caustics}]
-                  poses: {body: pose} of the bodies whose initial pose is not that of ``bodies``,
-                  because the seed varies the scene; surface, caustics: absent, or {waves,
-                  ripples} and {phases, waves} of another seed
+    trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses, visuals,
+                  surface, caustics}]
+                  poses, visuals: {body: pose} and {body: [visual]} of the bodies whose initial
+                  pose and visuals are not those of ``bodies``, because the seed or the level
+                  changes the scene; surface, caustics: absent, or {waves, ripples} and {phases,
+                  waves} of another seed
 
     levels      [{label, status, why, start, end, values: {fog: ...}}]
                   start, end: simulation times [s]; why: the reason of a status other than ok, or
@@ -223,6 +224,7 @@ def scene_head(
     *,
     is_live: bool = False,
     media: Iterable[Medium] = (),
+    models: Models | None = None,
 ) -> Json:
     """Describe an opened scene for the page.
 
@@ -232,13 +234,11 @@ def scene_head(
         blob: the binary part of the pack, to which arrays are appended.
         is_live: True if rows of motion arrive over a WebSocket.
         media: the media of physical water besides the present one.
+        models: the meshes and textures, which may be used further (`models_of`); None: new ones.
     """
     world = simulation.world
-    water = world.scenery.state.water
-    models = Models(blob, has_finish=water.physical_water is not None)
-    bodies = Bodies(world)
-    for part in world.scenery.parts:
-        bodies.add(part, models)
+    models = models or models_of(simulation, blob)
+    bodies = _describe_bodies(simulation, models)
     names = make_unique(f"sand/{heap.name}" for heap in world.scenery.heaps)
     heaps = zip(names, world.scenery.heaps, strict=True)
     sand = [_sand(name, heap, bodies, models) for name, heap in heaps]
@@ -267,12 +267,35 @@ def scene_head(
     }
 
 
-def body_poses(simulation: Simulation) -> dict[str, list[float]]:
-    """Return the present poses in W of all bodies of the head, x y z w x y z by name."""
+def models_of(simulation: Simulation, blob: Blob) -> Models:
+    """Return an empty list of meshes and textures for a scene, whose arrays go to a blob."""
+    has_finish = simulation.world.scenery.state.water.physical_water is not None
+    return Models(blob, has_finish=has_finish)
+
+
+def changed_bodies(simulation: Simulation, head: Json, models: Models) -> Json:
+    """Return the ``poses`` and ``visuals`` of a trial whose scene is not that of the head.
+
+    Args:
+        simulation: the trial's scene, at step 0.
+        head: the head.
+        models: the meshes and textures of the head, to which those of the trial are appended.
+    """
+    first_rows = {row["name"]: row for row in head["bodies"]}
+    rows = [row for row in _describe_bodies(simulation, models).rows if row["name"] in first_rows]
+    return {
+        key: {
+            row["name"]: row[field] for row in rows if row[field] != first_rows[row["name"]][field]
+        }
+        for key, field in (("poses", "pose"), ("visuals", "visuals"))
+    }
+
+
+def _describe_bodies(simulation: Simulation, models: Models) -> Bodies:
     bodies = Bodies(simulation.world)
     for part in simulation.world.scenery.parts:
-        bodies.part_body(part)
-    return {row["name"]: row["pose"] for row in bodies.rows}
+        bodies.add(part, models)
+    return bodies
 
 
 def _sand(name: str, heap: Heap, bodies: Bodies, models: Models) -> Json:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import io
 from typing import Any
 
@@ -44,6 +45,7 @@ class Models:
         """The entries of ``textures`` in the head so far."""
         self._visuals: dict[int, tuple[Model, list[dict[str, Any]]]] = {}
         self._texture_indices: dict[str, int] = {}
+        self._mesh_indices: dict[bytes, int] = {}  # by the digest of their numbers
 
     def visuals(self, model: Model) -> list[dict[str, Any]]:
         """Return the entries of ``visuals`` in the head for a model: one for each merged mesh."""
@@ -99,29 +101,34 @@ class Models:
         return self._add("pattern", pixels, ("webp", data), repeats=False)
 
     def _mesh(self, part: MergedMesh) -> int:
-        vertices, add = part.vertices, self._blob.add
-        indices = part.triangles.ravel()
-        is_small = len(vertices) < 2**16
-        maps = self._maps(part)
-        has_uvs = part.texture is not None or bool(maps)
-        rows = {}
+        arrays, pieces = self._arrays(part), [_piece(piece) for piece in part.pieces]
+        digest = hashlib.sha256(repr(pieces).encode())
+        for name, array in arrays.items():
+            digest.update(f"{name} {array.size} {array.dtype}".encode())
+            digest.update(np.ascontiguousarray(array).tobytes())
+        key = digest.digest()
+        if key not in self._mesh_indices:
+            self._mesh_indices[key] = len(self.meshes)
+            rows = {name: self._blob.add(array) for name, array in arrays.items()}
+            self.meshes.append({"uvs": None, **rows, "pieces": pieces})
+        return self._mesh_indices[key]
+
+    def _arrays(self, part: MergedMesh) -> dict[str, npt.NDArray[Any]]:
+        """Return the arrays of a mesh that the page needs, by their names in the head."""
+        vertices, indices, maps = part.vertices, part.triangles.ravel(), self._maps(part)
+        arrays = {}
         if part.material is not None and (maps or self._has_finish):
-            rows["finish"] = add(vertices["finish"])
-            rows["emissions"] = add(vertices["emission"])
+            arrays["finish"] = vertices["finish"]
+            arrays["emissions"] = vertices["emission"]
         if "normal_map" in maps:
-            rows["tangents"] = add(np.rint(vertices["tangent"] * 32767.0).astype("<i2"))
-        self.meshes.append(
-            {
-                "positions": add(vertices["vertex"]),
-                "normals": add(np.rint(vertices["vertex_normal"] * 32767.0).astype("<i2")),
-                "uvs": add(vertices["uv"]) if has_uvs else None,
-                "tints": add(np.rint(vertices["tint"] * 65535.0).astype("<u2")),
-                "triangles": add(indices.astype("<u2" if is_small else "<u4")),
-                "pieces": [_piece(piece) for piece in part.pieces],
-                **rows,
-            }
-        )
-        return len(self.meshes) - 1
+            arrays["tangents"] = np.rint(vertices["tangent"] * 32767.0).astype("<i2")
+        arrays["positions"] = vertices["vertex"]
+        arrays["normals"] = np.rint(vertices["vertex_normal"] * 32767.0).astype("<i2")
+        if part.texture is not None or maps:
+            arrays["uvs"] = vertices["uv"]
+        arrays["tints"] = np.rint(vertices["tint"] * 65535.0).astype("<u2")
+        arrays["triangles"] = indices.astype("<u2" if len(vertices) < 2**16 else "<u4")
+        return arrays
 
     def _base(self, texture: Texture, part: MergedMesh) -> int:
         """Return the index of a base colour; with holes, it has its smaller images (`levels`)."""

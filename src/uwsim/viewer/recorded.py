@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..base.geometry import Array
+from ..benchmark.updater_settings import set_number
 from ..errors import ResultError, UwsimError
 from ..results import journal
 from ..results.motion import MotionTrack, TrackLevel, load_track
@@ -25,6 +26,7 @@ from ..verify.recorded_plan import (
     FileOverrides,
     command_words,
     find_input,
+    find_level_settings,
     find_scene_name,
     recorded_input,
 )
@@ -97,7 +99,7 @@ class RecordedTrial:
     seed: int
     """The seed of the trial's random streams."""
     scene: SceneSpec
-    """The scene with the settings of ``--set``, before the seed varies it."""
+    """The scene with the settings of ``--set`` and of the level, before the seed varies it."""
     timestep: float
     """The timestep of the run [s]."""
     compatibility: frozenset[str]
@@ -108,6 +110,9 @@ class RecordedTrial:
     """The recorded motion."""
     levels: tuple[RecordedLevel, ...]
     """The levels in order."""
+    level_settings: tuple[tuple[str, float], ...] = ()
+    """The paths and values of the numbers of the scene that its level sets
+    (``<u:settingUpdater>``)."""
 
     @staticmethod
     def open(
@@ -132,12 +137,16 @@ class RecordedTrial:
         track = load_track(journal.track_path(directory, index))
         run = result.run
         name = Path(recorded_input(result, "benchmark")[0]).stem
+        scene, paths = scene_of(result, directory, sources)
+        settings = _level_settings(track, paths)
+        for path, value in settings:
+            scene = set_number(scene, path, value)
         return RecordedTrial(
             directory=directory,
             index=index,
             title=f"{name}, {run.algorithm_label}, seed {head['seed']}",
             seed=int(head["seed"]),
-            scene=scene_of(result, directory, sources),
+            scene=scene,
             timestep=run.timestep[0] if run.timestep else TIMESTEP,
             compatibility=frozenset(run.compatibility or ()),
             data_path=sources.data_path,
@@ -146,6 +155,7 @@ class RecordedTrial:
                 _level(row, track_level)
                 for row, track_level in zip(trial.rows, track.levels, strict=False)
             ),
+            level_settings=settings,
         )
 
 
@@ -165,13 +175,21 @@ def trials_of_first_seed(directory: Path) -> tuple[int, ...]:
     return tuple(i for i, seed in zip(numbers, seeds, strict=True) if seed == seeds[0])
 
 
-def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> SceneSpec:
-    """Find the scene of a result by name and hash, and apply its settings (``--set``)."""
-    words = command_words(directory)
+def scene_of(
+    result: Result, directory: Path, overrides: FileOverrides
+) -> tuple[SceneSpec, dict[str, str]]:
+    """Find the scene of a result by name and hash, and apply its settings (``--set``).
+
+    Returns:
+        The scene, and the paths of its numbers that levels set, by the names of their columns;
+        none if the benchmark file is not found.
+    """
+    words, paths = command_words(directory), dict[str, str]()
     with suppress(UwsimError):  # a missing benchmark names no scene; the record may be enough
         record = recorded_input(result, "benchmark")
         file = find_input("benchmark", record, overrides.benchmark, directory, overrides, words)
         words += [str(file.parent / name) for name in find_scene_name(file)]
+        paths = find_level_settings(file)
     record = recorded_input(result, "scene")
     path = find_input("scene", record, overrides.scene, directory, overrides, words)
     arguments = xacro_arguments(result.run.settings or ())
@@ -180,7 +198,13 @@ def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> Scene
         if not name.startswith(ALGORITHM_PREFIX):
             with suppress(UwsimError):  # it was valid in the run: it belongs to an updater
                 scene = apply_setting(scene, name, value)
-    return scene
+    return scene, paths
+
+
+def _level_settings(track: MotionTrack, paths: Mapping[str, str]) -> tuple[tuple[str, float], ...]:
+    """Return the paths and values that the level of a trial sets; such a trial has one level."""
+    values = track.levels[0].values if track.levels else {}
+    return tuple((path, values[column]) for column, path in paths.items() if column in values)
 
 
 def levels_without_motion(

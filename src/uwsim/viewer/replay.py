@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,12 +23,15 @@ from ..verify.recorded_plan import FileOverrides
 from .caustics import describe_focusing_waves
 from .document import document
 from .film.trial_scene import open_scene
-from .head import body_poses, scene_head
+from .head import changed_bodies, models_of, scene_head
+from .models import Models
 from .pack import Blob, make_pack
 from .recorded import Curve, RecordedLevel, RecordedTrial, levels_without_motion
 from .surface import describe_moving_surface
 
 Json = dict[str, Any]
+SceneKey = tuple[int, tuple[tuple[str, float], ...]]
+"""The seed of a trial, and the numbers of the scene that its level sets."""
 SUFFIXES = (".html", ".htm")
 """The suffixes of the files that `Replay.save` writes."""
 NO_MOTION = "no motion"
@@ -92,20 +95,16 @@ class Replay:
         """Return the pack of the page; `uwsim.viewer.head` documents its format."""
         blob, first_trial = Blob(), self._trials[0]
         with open_scene(first_trial) as simulation:
-            head = scene_head(simulation, self.title, blob, media=self._media(simulation))
+            models, media = models_of(simulation, blob), self._media(simulation)
+            head = scene_head(simulation, self.title, blob, media=media, models=models)
         descriptions = {trial.index: _trial(trial, blob) for trial in self._trials}
         if len(self._seeds) > 1:
             for trial in self._trials:
                 for level in descriptions[trial.index]["levels"]:
                     level["label"] = f"seed {trial.seed}: {level['label']}"
-        initial_poses = {body["name"]: body["pose"] for body in head["bodies"]}
-        varied_trials = self._varied_trials().items()
-        poses = {seed: _moved_poses(trial, initial_poses) for seed, trial in varied_trials}
+        scenes = self._other_scenes(head, models, blob)
         for trial in self._trials:
-            descriptions[trial.index]["poses"] = poses.get(trial.seed, {})
-        surfaces = self._surfaces(head, blob)
-        for trial in self._trials:
-            descriptions[trial.index] |= surfaces.get(trial.seed, {})
+            descriptions[trial.index] |= scenes.get(_scene_key(trial), {"poses": {}, "visuals": {}})
         names = list(first_trial.track.levels[0].values) if first_trial.track.levels else []
         for index in self.trials_without_motion:
             descriptions[index] = _trial_without_motion(self.directory, index, names, blob)
@@ -127,28 +126,23 @@ class Replay:
                 assert optics is not None
                 yield optics.medium
 
-    def _surfaces(self, head: Json, blob: Blob) -> dict[int, Json]:
-        """Return, by seed, the surface of the trials whose waves are not those of the first."""
-        first_seed, surfaces = self._trials[0].seed, dict[int, Json]()
+    def _other_scenes(self, head: Json, models: Models, blob: Blob) -> dict[SceneKey, Json]:
+        """Describe the scenes that differ from that of the first trial by seed or level."""
+        first_trial, scenes = self._trials[0], dict[SceneKey, Json]()
         surface, caustics = head["surface"], head["caustics"]
         has_waves = surface is not None and (surface["waves"] or surface["ripples"])
-        if not has_waves and caustics is None:
-            return surfaces
-        for trial in {t.seed: t for t in self._trials if t.seed != first_seed}.values():
-            entries = surfaces[trial.seed] = {}
+        depends_on_seed = bool(first_trial.scene.vary or has_waves or caustics is not None)
+        for key, trial in {_scene_key(trial): trial for trial in self._trials}.items():
+            is_other_seed = depends_on_seed and trial.seed != first_trial.seed
+            if not is_other_seed and trial.level_settings == first_trial.level_settings:
+                continue
             with open_scene(trial) as simulation:
-                if has_waves:
-                    entries["surface"] = describe_moving_surface(simulation.world, blob)
-                if caustics is not None:
-                    entries["caustics"] = describe_focusing_waves(simulation.world, blob)
-        return surfaces
-
-    def _varied_trials(self) -> dict[int, RecordedTrial]:
-        """Return, by seed, a trial whose scene differs from the scene of the first trial."""
-        first_trial = self._trials[0]
-        if not first_trial.scene.vary:
-            return {}
-        return {trial.seed: trial for trial in self._trials if trial.seed != first_trial.seed}
+                scenes[key] = changed_bodies(simulation, head, models)
+                if has_waves and is_other_seed:
+                    scenes[key]["surface"] = describe_moving_surface(simulation.world, blob)
+                if caustics is not None and is_other_seed:
+                    scenes[key]["caustics"] = describe_focusing_waves(simulation.world, blob)
+        return scenes
 
     def html(self) -> str:
         """Return the page, which loads no other file."""
@@ -174,11 +168,8 @@ class Replay:
         )
 
 
-def _moved_poses(trial: RecordedTrial, initial_poses: Mapping[str, list[float]]) -> Json:
-    """Return the poses in W of the bodies whose initial pose the trial's seed has changed."""
-    with open_scene(trial) as simulation:
-        poses = body_poses(simulation)
-    return {name: pose for name, pose in poses.items() if pose != initial_poses.get(name)}
+def _scene_key(trial: RecordedTrial) -> SceneKey:
+    return trial.seed, trial.level_settings
 
 
 def _trial(trial: RecordedTrial, blob: Blob) -> Json:
@@ -213,6 +204,7 @@ def _trial_without_motion(directory: Path, index: int, names: Sequence[str], blo
         "levels": rows,
         "curves": curves,
         "poses": {},
+        "visuals": {},
     }
 
 

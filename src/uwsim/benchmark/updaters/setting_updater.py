@@ -40,7 +40,7 @@ class SettingUpdaterSpec(SweepSpec):
     @property
     def parameter(self) -> str:
         """The name of the column."""
-        return self.column or self.path.rpartition(".")[2].partition("[")[0]
+        return self.column or column_of(self.path)
 
     @property
     def parameter_unit(self) -> str:
@@ -54,3 +54,8 @@ class SettingUpdaterSpec(SweepSpec):
     def bind(self, stage: Stage) -> Setter:
         """Return an updater that changes nothing: the scene was opened with the value."""
         return Setter(lambda value: None)
+
+
+def column_of(path: str) -> str:
+    """Return the name of the column of a path without ``u:column``: its last name."""
+    return path.rpartition(".")[2].partition("[")[0]

@@ -292,13 +292,16 @@ class TrialSequenceFilm:
     def __init__(self, trials: Sequence[RecordedTrial], spec: FilmSpec) -> None:
         self._trials, self.spec = trials, spec
         """The settings of the film."""
-        self._simulation = open_scene(trials[0])
+        self._n_frames = [n_frames_of(trial, spec) for trial in trials]
+        for trial in trials:
+            _check_curves(trial, spec)
+        self._trial_number, self._simulation = 0, open_scene(trials[0])
         try:
-            self._films = [Film(trial, spec, self._simulation) for trial in trials]
+            self._film = Film(trials[0], spec, self._simulation)
         except BaseException:
             self._simulation.close()
             raise
-        self.n_frames = sum(film.n_frames for film in self._films)
+        self.n_frames = sum(self._n_frames)
         """The number of images."""
 
     def frames(self, to_bytes: ImageConversion) -> Iterator[bytes]:
@@ -308,11 +311,22 @@ class TrialSequenceFilm:
 
     def draw(self, index: int) -> Pixels:
         """Draw an image by its index, 0 <= index < `n_frames`, (h, w, 3)."""
-        for film in self._films:
-            if index < film.n_frames:
-                break
-            index -= film.n_frames
+        number = 0
+        while index >= self._n_frames[number]:
+            index -= self._n_frames[number]
+            number += 1
+        film = self._film_of(number)
         return film.draw(film.time_of(index))
+
+    def _film_of(self, number: int) -> Film:
+        """Return the film of a trial; only one scene is open at a time."""
+        if number != self._trial_number:
+            previous_trial, trial = self._trials[self._trial_number], self._trials[number]
+            if trial.level_settings != previous_trial.level_settings:
+                self._simulation.close()
+                self._simulation = open_scene(trial)
+            self._trial_number, self._film = number, Film(trial, self.spec, self._simulation)
+        return self._film
 
     def chapters(self) -> list[Chapter]:
         """Return the chapters of all trials."""

@@ -186,8 +186,10 @@ export interface Curve {
 
 export interface Trial {
   title: string;
-  /** World from body at step 0, where a seed changes it, by name of the body. */
+  /** World from body at step 0, where a seed or a level changes it, by name of the body. */
   poses?: Record<string, number[]>;
+  /** The meshes of a body, where a seed or a level changes them, by name of the body. */
+  visuals?: Record<string, Visual[]>;
   /** The waves and ripples, where a seed changes them. */
   surface?: WavesSpec;
   caustics?: FocusingWavesSpec;

@@ -37,6 +37,8 @@ export class Instance {
   /** True if the transform mirrors the mesh, so that its triangles are clockwise. */
   isMirrored = false;
   private readonly bodyFromMesh: Matrix;
+  /** True if the selected trial has the instance. */
+  isPresent = true;
 
   constructor(
     /** The index of the instance in `Models.instances`. */
@@ -113,7 +115,7 @@ export class Models {
     const models = new Models(pack.head, gl);
     models.place(new Map());
     if (!gl) return models;
-    const { meshes, textures, bodies, projector } = pack.head;
+    const { meshes, textures, projector } = pack.head;
     const images = await Promise.all(
       textures.map(({ repeats }, i) => loadTexture(gl, pack, i, i !== projector?.pattern && repeats)),
     );
@@ -125,19 +127,28 @@ export class Models {
       const positions = pack.numbers(meshes[heap.mesh].positions) as Float32Array;
       models.sand.push({ heap: new Sand(heap, positions), ...gpuMeshes[heap.mesh] });
     }
-    for (const body of bodies)
-      for (const visual of body.visuals) {
-        const { texture, mesh } = visual;
-        const image = texture === null ? null : images[texture];
-        const repeats = texture !== null && textures[texture].repeats;
-        const hasUint32Indices = meshes[mesh].triangles[2] === "u4";
-        const [n, pieces] = [models.instances.length, meshes[mesh].pieces];
-        models.instances.push(
-          new Instance(n, visual, body.name, vertexArrays[mesh], image, repeats, hasUint32Indices, pieces),
-        );
-      }
+    for (const [body, visual] of allVisuals(pack.head)) {
+      const { texture, mesh } = visual;
+      const image = texture === null ? null : images[texture];
+      const repeats = texture !== null && textures[texture].repeats;
+      const hasUint32Indices = meshes[mesh].triangles[2] === "u4";
+      const [n, pieces] = [models.instances.length, meshes[mesh].pieces];
+      models.instances.push(
+        new Instance(n, visual, body, vertexArrays[mesh], image, repeats, hasUint32Indices, pieces),
+      );
+    }
+    models.select(0);
     models.place(new Map());
     return models;
+  }
+
+  /** Show the meshes of a trial. */
+  select(trial: number): void {
+    const keys = new Set(this.head.bodies.flatMap(({ name }) =>
+      visualsOf(this.head, trial, name).map((visual) => keyOf(name, visual))));
+    for (const instance of this.instances) instance.isPresent = keys.has(keyOf(instance.body, instance.visual));
+    this.version += 1;
+    this.computeRadii();
   }
 
   /** Set the poses of all bodies (world from body); a body that is not in `poses` has its initial pose. */
@@ -189,7 +200,8 @@ export class Models {
   /** Compute the radii of all models. */
   private computeRadii(): void {
     const boxes = new Map<number, number[]>();
-    for (const { visual, pieces } of this.instances) {
+    for (const { visual, pieces, isPresent } of this.instances) {
+      if (!isPresent) continue;
       const box = boxes.get(visual.part) ?? [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
       for (const { centre, radius } of pieces)
         for (let i = 0; i < 3; ++i) {
@@ -201,6 +213,31 @@ export class Models {
     for (const [part, b] of boxes)
       this.radii.set(part, Math.max(b[3] - b[0], b[4] - b[1], b[5] - b[2]) / 2);
   }
+}
+
+/** Return the meshes of a body in a trial. */
+export function visualsOf(head: Head, trial: number, body: string): Visual[] {
+  const trialVisuals = head.trials?.[trial]?.visuals?.[body];
+  return trialVisuals ?? head.bodies.find(({ name }) => name === body)?.visuals ?? [];
+}
+
+/** Return a text that is the same for equal meshes of a body. */
+function keyOf(body: string, visual: Visual): string {
+  return `${body} ${JSON.stringify(visual)}`;
+}
+
+/** Return the meshes of all bodies in all trials, each once, with the names of their bodies. */
+function allVisuals(head: Head): [string, Visual][] {
+  const entries = head.bodies.flatMap(({ name, visuals }) => visuals.map((visual): [string, Visual] => [name, visual]));
+  const keys = new Set(entries.map(([body, visual]) => keyOf(body, visual)));
+  for (const { visuals = {} } of head.trials ?? [])
+    for (const [body, trialVisuals] of Object.entries(visuals))
+      for (const visual of trialVisuals) {
+        const key = keyOf(body, visual);
+        if (!keys.has(key)) entries.push([body, visual]);
+        keys.add(key);
+      }
+  return entries;
 }
 
 /** The buffers of a mesh on the GPU. */

@@ -39,7 +39,7 @@ export class Page implements Controls {
     readonly picture: Picture,
     readonly views: Views,
     readonly connection: Connection | null,
-    rays: Rays,
+    private readonly rays: Rays,
   ) {
     this.switches.clear = beginsClear(pack.head);
     this.quantities = new Quantities(pack.head, rays);
@@ -63,6 +63,8 @@ export class Page implements Controls {
   async select(trial: number): Promise<void> {
     if (trial === this.player.trial) return;
     await this.player.select(trial);
+    this.picture.models.select(trial);
+    this.rays.trial = trial;
     element("message").textContent = hasNoMotion(this.player) ? "This trial has no recorded motion." : this.note;
     this.curves.set(this.player.curves);
     const { start, end } = this.player;

@@ -3,12 +3,15 @@ import type { Head, Visual } from "../head";
 import {
   cross, dot, matrix, plus, product, transform, type Matrix, type Vector,
 } from "../geometry";
+import { visualsOf } from "../models";
 import type { Pack } from "../pack";
 
 const MIN_OPACITY = 0.5; // least opacity of a surface that rays hit [1]
 
 /** Ray casts against the meshes of a pack. */
 export class Rays {
+  trial = 0; // the index of the selected trial
+
   constructor(private readonly pack: Pack) {}
 
   /**
@@ -19,9 +22,10 @@ export class Rays {
   cast(start: Vector, end: Vector, bodyPose: (body: string) => Matrix, isSkipped: (body: Head["bodies"][0]) => boolean): number {
     let nearestFraction = 1;
     for (const body of this.pack.head.bodies) {
-      if (!body.visuals.length || isSkipped(body)) continue;
+      const visuals = visualsOf(this.pack.head, this.trial, body.name);
+      if (!visuals.length || isSkipped(body)) continue;
       const worldFromBody = bodyPose(body.name);
-      for (const visual of body.visuals) {
+      for (const visual of visuals) {
         if (visual.hidden || visual.opacity < MIN_OPACITY) continue;
         const meshFromWorld = inverseOf(product(worldFromBody, matrix(visual.matrix)));
         if (!meshFromWorld) continue;

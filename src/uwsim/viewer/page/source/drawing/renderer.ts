@@ -203,7 +203,9 @@ export class Renderer {
   }
 
   private shownPieces({ isExternal }: RenderState): Piece[] {
-    return this.models.instances.filter(({ visual }) => isExternal || !visual.hidden).flatMap(({ pieces }) => pieces);
+    return this.models.instances
+      .filter(({ visual, isPresent }) => isPresent && (isExternal || !visual.hidden))
+      .flatMap(({ pieces }) => pieces);
   }
 
   private lightScene(state: RenderState, pieces: Piece[], switches: Switches): void {

@@ -175,7 +175,9 @@ function findHulls(models: Models, pieces: Piece[], maxHeight: number): Set<numb
 
 /** Return the height of the lowest point of large models, which count as the ground [m]; -infinity without any. */
 export function findLowestPoint(models: Models): number {
-  const largeModels = models.instances.filter((instance) => models.radius(instance) > MAX_CASTER_RADIUS);
+  const largeModels = models.instances.filter(
+    (instance) => instance.isPresent && models.radius(instance) > MAX_CASTER_RADIUS,
+  );
   const heights = largeModels.flatMap(({ pieces }) => pieces.flatMap(({ corners }) => corners.map((corner) => corner[2])));
   return heights.length ? heights.reduce((a, b) => Math.min(a, b)) : -Infinity;
 }
