@@ -5,6 +5,7 @@ The page is written by hand; each table is between the marks of `scripts.referen
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -14,6 +15,9 @@ from uwsim.suites.suite import find_suite, read_suite
 from .sensor_tables import TABLE
 
 SUITE = "intervention"
+DOCS = Path(__file__).parents[2] / "docs"
+HEADING = re.compile(r"^## ([\w-]+)$", re.MULTILINE)
+"""A heading of one word, as the name of a benchmark."""
 
 
 def fill_tables(page: str) -> str:
@@ -23,10 +27,10 @@ def fill_tables(page: str) -> str:
 
 def task_table() -> str:
     """Return the table of the tasks."""
-    tasks = read_suite(find_suite(SUITE)).spec.tasks
+    tasks, sections = read_suite(find_suite(SUITE)).spec.tasks, find_sections()
     rows = [
         (
-            f"`{task.name}`",
+            link_to_section(task.name, sections.get(task.benchmark)),
             task.description,
             f"`{task.benchmark}`",
             ", ".join(f"`{name}`" for name in task.baselines),
@@ -38,6 +42,23 @@ def task_table() -> str:
     ]
     head = ("task", "goal", "benchmark", "baselines", "control", "expert", "failures")
     return format_table(head, rows)
+
+
+def find_sections() -> dict[str, str]:
+    """Return the address of the section on each benchmark, by the benchmark's name.
+
+    It is the section of a page ``docs/tasks-*.md`` whose heading is the name, in any case.
+    """
+    return {
+        heading.lower(): f"{page.name}#{heading.lower()}"
+        for page in sorted(DOCS.glob("tasks-*.md"))
+        for heading in HEADING.findall(page.read_text(encoding="utf-8"))
+    }
+
+
+def link_to_section(name: str, address: str | None) -> str:
+    """Return the name of a task, linked to its section if it has one."""
+    return f"`{name}`" if address is None else f"[`{name}`]({address})"
 
 
 def track_table() -> str:
