@@ -92,6 +92,28 @@ def test_the_script_for_slurm_is_valid_and_keeps_the_words_of_the_call(
     assert shown[-6:] == ["--set", BENCH[-1], "--workers", "2", "--out", "/a b/x.result"]
 
 
+@pytest.mark.parametrize(
+    "call",
+    [
+        ["suite", "run", "intervention", "--algorithm", "position-pi", "--tasks", "station"],
+        ["suite", "table", "intervention", "--seeds", "2"],
+    ],
+)
+def test_the_shards_of_a_suite_are_merged_by_the_call_itself(
+    programs: Path, capsys: pytest.CaptureFixture[str], call: list[str]
+) -> None:
+    words = [*call, "--out", "/shared/x"]
+    script = printed(capsys, ["slurm", "--tasks", "9", "--", *words])
+    task, merge = (line for line in script.splitlines() if line.startswith("srun"))
+    shard = ["--shard", '"$SLURM_ARRAY_TASK_ID/9"']
+    assert task.endswith(" ".join(["uwsim", *words[:2], *shard, *words[2:]]))
+    assert merge.endswith(" ".join(["uwsim", *words]))
+    assert "--job-name=uwsim-intervention\n" in script
+    volume = ["--image", "u", "--volume-claim", "c", "--mount", "/shared"]
+    manifest = printed(capsys, ["kubernetes", *volume, "--tasks", "9", "--", *words])
+    assert f"exec {' '.join(['uwsim', *words])}" in manifest
+
+
 def test_a_script_has_no_more_tasks_than_the_arrays_of_the_cluster(
     programs: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -127,7 +149,9 @@ def test_a_task_in_a_container_sees_the_folders_of_the_run(
         (["slurm", *BENCH, "--out", "/x", "--shard", "1/2"], "--shard cannot be given"),
         (["slurm", *BENCH, "--out", "/x", "--resume"], "--resume cannot be given"),
         (["slurm", *BENCH, "--out", "/x", "--workers", "ray"], "--workers ray: expected a number"),
-        (["slurm", "--", "check", "a.xml"], "check: expected -- bench BENCHMARK"),
+        (["slurm", "--", "check", "a.xml"], "check a.xml: expected -- bench BENCHMARK"),
+        (["slurm", "--", "suite", "run", "intervention", "--out", "x"], "--out x: expected an abs"),
+        (["slurm", "--", "suite", "verify", "/x"], "suite verify: expected -- bench BENCHMARK"),
         (["slurm", "--time", "5h", *BENCH, "--out", "/x"], "--time 5h: expected HOURS"),
         (["slurm", "--memory", "2", *BENCH, "--out", "/x"], "--memory 2: expected a number and"),
         (["slurm", "--partition", "a b", *BENCH, "--out", "/x"], "--partition a b: expected"),

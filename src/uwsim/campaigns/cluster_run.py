@@ -1,4 +1,4 @@
-"""A call of ``uwsim bench`` that a cluster divides into tasks, one for each shard."""
+"""A call of uwsim that a cluster divides into tasks, one for each shard."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from pathlib import Path
 
 from ..errors import BadSetting
 
+BENCH = ("bench",)
+"""The command whose shards are merged by ``uwsim merge``."""
 MAX_NAME_LENGTH = 40
 """The greatest length of the name of a job; Kubernetes allows 63 with its own suffixes."""
 THREAD_VARIABLES = (
@@ -25,8 +27,10 @@ THREAD_VARIABLES = (
 class ClusterRun:
     """The tasks of a campaign, and the resources of each."""
 
+    command: tuple[str, ...]
+    """The command of uwsim, such as ``bench`` or ``suite run``."""
     words: tuple[str, ...]
-    """The words after ``uwsim bench``: the benchmark and options, without ``--shard``."""
+    """The words after the command: the benchmark or suite, and options, without ``--shard``."""
     out: Path
     """The result directory, an absolute path that all machines share."""
     folder: Path
@@ -41,8 +45,8 @@ class ClusterRun:
     """The number of processors of a task, one for each of its workers."""
     memory: str
     """The memory of a task, such as ``2G``: a number, and K, M, G or T for powers of 1024."""
-    benchmark: str
-    """The name or file of the benchmark."""
+    subject: str
+    """The name or file of the benchmark or suite."""
 
     def __post_init__(self) -> None:
         """Check the paths and the memory; raise BadSetting."""
@@ -54,8 +58,8 @@ class ClusterRun:
 
     @property
     def name(self) -> str:
-        """The name of the job: ``uwsim-`` and the benchmark, in lower case letters and digits."""
-        stem = re.sub(r"[^a-z0-9]+", "-", Path(self.benchmark).stem.lower())
+        """The name of the job: ``uwsim-`` and the subject, in lower case letters and digits."""
+        stem = re.sub(r"[^a-z0-9]+", "-", Path(self.subject).stem.lower())
         return f"uwsim-{stem}"[:MAX_NAME_LENGTH].strip("-")
 
     def shard_command(self, number: str, prefix: Sequence[str] = ("uwsim",)) -> str:
@@ -66,14 +70,19 @@ class ClusterRun:
             prefix: the words that start uwsim.
         """
         shard = f'--shard "{number}/{self.n_tasks}"'
-        return f"{shlex.join([*prefix, 'bench'])} {shard} {shlex.join(self.words)}"
+        return f"{shlex.join([*prefix, *self.command])} {shard} {shlex.join(self.words)}"
 
     def merge_command(self, prefix: Sequence[str] = ("uwsim",)) -> str:
-        """Return the shell command that merges the campaign."""
+        """Return the shell command that merges the campaign.
+
+        A command of a suite merges its own shards: it is called without ``--shard``.
+        """
+        if self.command != BENCH:
+            return shlex.join([*prefix, *self.command, *self.words])
         folders = [word for path in self.data_path for word in ("--data-path", str(path))]
         return shlex.join([*prefix, "merge", str(self.out), *folders])
 
     @property
     def description(self) -> str:
         """The command that the tasks run together, in one line."""
-        return re.sub(r"[\r\n]", " ", shlex.join(["uwsim", "bench", *self.words]))
+        return re.sub(r"[\r\n]", " ", shlex.join(["uwsim", *self.command, *self.words]))

@@ -1,7 +1,7 @@
-"""The options of the commands that divide a call of ``uwsim bench`` among the tasks of a cluster.
+"""The options of the commands that divide a call of uwsim among the tasks of a cluster.
 
-The call follows ``--``, and is read as ``uwsim bench`` reads it, so that an unknown option is an
-error before anything is submitted.
+The call follows ``--``, and is read as its command reads it, so that an unknown option is an error
+before anything is submitted.
 """
 
 from __future__ import annotations
@@ -14,22 +14,24 @@ from typing import Annotated, Any
 import typer
 from typer.main import get_command
 
-from ...campaigns.cluster_run import ClusterRun
+from ...campaigns.cluster_run import BENCH, ClusterRun
 from ...campaigns.shard import MAX_SHARDS
 from ...errors import BadSetting
 from ...runs.executors.choose import RAY
 from ..app import build_application
 from ..options.help_texts import RUN, option
 
-COMMAND = "bench"
+COMMANDS = (BENCH, ("suite", "run"), ("suite", "table"))
+"""The commands that can run in shards."""
 EXCLUDED_PARAMETERS = ("shard", "resume", "overwrite", "view")
-"""The names of the parameters of ``uwsim bench`` that are refused."""
+"""The names of the parameters of these commands that are refused."""
 
-BenchArgument = Annotated[
+CallArgument = Annotated[
     list[str],
     typer.Argument(
-        metavar="-- bench ARGUMENTS",
-        help="The call of `uwsim bench`, with an absolute --out that all machines share.",
+        metavar="-- COMMAND ARGUMENTS",
+        help="The call of `uwsim bench`, `uwsim suite run` or `uwsim suite table`, with an "
+        "absolute --out that all machines share.",
         show_default=False,
     ),
 ]
@@ -39,7 +41,7 @@ BenchArgument = Annotated[
 class ClusterOptions:
     """The options of the tasks of a cluster."""
 
-    bench: BenchArgument
+    call: CallArgument
     tasks: Annotated[
         int,
         option(
@@ -73,12 +75,16 @@ class ClusterOptions:
             folder: the folder in which tasks run.
 
         Raises:
-            BadSetting: the call is not one of ``uwsim bench``, or cannot run in shards.
+            BadSetting: the call is of another command, or cannot run in shards.
         """
-        if self.bench[0] != COMMAND:
-            raise BadSetting(f"{self.bench[0]}: expected -- bench BENCHMARK ... --out DIR.")
-        words = self.bench[1:]
-        values = _read_bench(words)
+        command = next((c for c in COMMANDS if tuple(self.call[: len(c)]) == c), None)
+        if command is None:
+            raise BadSetting(
+                f"{' '.join(self.call[:2])}: expected -- bench BENCHMARK ... --out DIR, or suite "
+                "run, or suite table."
+            )
+        words = self.call[len(command) :]
+        values = _read_call(command, words)
         for name in EXCLUDED_PARAMETERS:
             if values.get(name):
                 raise BadSetting(
@@ -91,21 +97,24 @@ class ClusterOptions:
         if values["workers"] == RAY:
             raise BadSetting(f"--workers {RAY}: expected a number of processes of a task.")
         return ClusterRun(
+            command=command,
             words=tuple(words),
             out=out,
             folder=folder,
-            data_path=tuple(values["data_path"] or ()),
+            data_path=tuple(values.get("data_path") or ()),
             n_tasks=self.tasks,
             n_parallel=self.n_parallel,
             n_processors=max(1, int(values["workers"])),
             memory=self.memory,
-            benchmark=values["benchmark"],
+            subject=values["benchmark" if command == BENCH else "suite"],
         )
 
 
-def _read_bench(words: Sequence[str]) -> dict[str, Any]:
-    """Return the values of the parameters of ``uwsim bench``; raise the error of a wrong one."""
-    command: Any = get_command(build_application([COMMAND]))
-    context = command.commands[COMMAND].make_context(f"uwsim {COMMAND}", list(words))
+def _read_call(command: Sequence[str], words: Sequence[str]) -> dict[str, Any]:
+    """Return the values of the parameters of a command; raise the error of a wrong one."""
+    parser: Any = get_command(build_application(command))
+    for name in command:
+        parser = parser.commands[name]
+    context = parser.make_context(" ".join(["uwsim", *command]), list(words))
     values: dict[str, Any] = context.params
     return values

@@ -1,4 +1,4 @@
-"""``uwsim kubernetes``: print the jobs that run a benchmark on a Kubernetes cluster."""
+"""``uwsim kubernetes``: print the jobs that run a benchmark or suite on a Kubernetes cluster."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ def kubernetes(
         ),
     ] = "/campaign",
 ) -> None:
-    """Print jobs that run a benchmark on a Kubernetes cluster.
+    """Print jobs that run a benchmark or suite on a Kubernetes cluster.
 
-    The YAML for `kubectl apply -f` has an indexed job, with an index for each shard of `uwsim bench
-    --shard`, and a suspended job that merges them. Its first lines tell how to start the merge.
+    The YAML for `kubectl apply -f` has an indexed job, with an index for each shard
+    (`--shard`), and a suspended job that merges them. Its first lines tell how to start the merge.
     """
     job = KubernetesJob(
         run=options.cluster_run(read_mount(mount)), image=image, volume_claim=volume_claim

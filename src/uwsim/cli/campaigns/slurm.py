@@ -1,4 +1,4 @@
-"""``uwsim slurm``: print the script that runs a benchmark on a Slurm cluster."""
+"""``uwsim slurm``: print the script that runs a benchmark or suite on a Slurm cluster."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ def slurm(
         ),
     ] = None,
 ) -> None:
-    """Print a script that runs a benchmark on a Slurm cluster.
+    """Print a script that runs a benchmark or suite on a Slurm cluster.
 
-    `bash job.sh` submits an array of tasks, one for each shard of `uwsim bench --shard`, and a job
+    `bash job.sh` submits an array of tasks, one for each shard (`--shard`), and a job
     that merges them when all have ended well. Submitted again, it runs what is missing. Tasks run
     in this folder, each with one processor per worker; preempted tasks are queued again.
     """
