@@ -189,6 +189,20 @@ def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: FakeBridge) -> None:
     assert bridge.sent_messages == []
 
 
+def test_a_topic_that_a_track_withholds_is_named_once(bus: Bus, bridge: FakeBridge) -> None:
+    bus.publisher("rov/odom", String)
+    bus.publisher("truth", String)
+    bus.hide_topic("rov/odom", "(PATToROSOdom) is not in track 'a'")
+    bus.hide_topic("truth")
+    bridge.step()
+    bus.publisher("depth", Float64)
+    bridge.step()
+    assert list(bridge.topics) == ["depth"]
+    assert bridge.lines == [
+        "uwsim: test: /rov/odom is not sent: it (PATToROSOdom) is not in track 'a'"
+    ]
+
+
 def test_a_service_elsewhere_is_called_when_it_is_not_here(bus: Bus) -> None:
     stop = bus.services.add_external_services(
         lambda name: name == "vision/init", lambda name, request: name

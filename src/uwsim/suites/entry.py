@@ -15,7 +15,7 @@ from ..runs.planning.make_plan import make_plan
 from ..runs.planning.option_values import number_or_text
 from ..runs.planning.plan import Plan
 from ..runs.planning.plan_request import PlanRequest
-from ..runs.prepare import prepare_run
+from ..runs.prepare import prepare_runs
 from ..runs.run import Run
 from .suite import Suite, TaskSpec, TrackSpec
 
@@ -170,16 +170,50 @@ def prepare_entry(plans: Sequence[tuple[TaskSpec, Plan]], out: Path) -> list[Run
     """Open the scene of each task once; return the runs, with their results in ``out/TASK``.
 
     Raises:
-        UwsimError: as `prepare_run` does; or a task has other files than the suite records.
+        UwsimError: as `prepare_entries` does.
     """
-    runs = [prepare_run(plan, out / task.name) for task, plan in plans]
-    for (task, _), run in zip(plans, runs, strict=True):
-        if task.hash is not None and task_hash(run.inputs) != task.hash:
-            raise BadSetting(
-                f"{task.name} has other files than its <hash> states, {short_hash(task.hash)}; "
-                f"expected a new version and hash, {task_hash(run.inputs)}."
-            )
-    return runs
+    return prepare_entries({out: plans})[out]
+
+
+def prepare_entries(
+    plans: Mapping[Path, Sequence[tuple[TaskSpec, Plan]]],
+) -> dict[Path, list[Run]]:
+    """Open the scene of each task once for several entries, which differ in the algorithms alone.
+
+    Args:
+        plans: the plans of each entry (`plan_entry`), by its folder, an absolute path.
+
+    Returns:
+        The runs of each entry, with their results in ``FOLDER/TASK``.
+
+    Raises:
+        UwsimError: as `prepare_runs` does; or a task has other files than the suite records.
+    """
+    members: dict[str, list[tuple[Path, Plan]]] = {}
+    for folder, entry_plans in plans.items():
+        for task, plan in entry_plans:
+            members.setdefault(task.name, []).append((folder / task.name, plan))
+    runs: dict[Path, Run] = {}
+    for pairs in members.values():
+        outs = [str(out) for out, _ in pairs]
+        task_runs = prepare_runs([plan for _, plan in pairs], Path("/"), outs)
+        runs |= {run.out: run for run in task_runs}
+    for folder, entry_plans in plans.items():
+        for task, _ in entry_plans:
+            _check_hash(task, runs[folder / task.name])
+    return {
+        folder: [runs[folder / task.name] for task, _ in entry_plans]
+        for folder, entry_plans in plans.items()
+    }
+
+
+def _check_hash(task: TaskSpec, run: Run) -> None:
+    """Raise BadSetting if the suite records other files of a task."""
+    if task.hash is not None and task_hash(run.inputs) != task.hash:
+        raise BadSetting(
+            f"{task.name} has other files than its <hash> states, {short_hash(task.hash)}; "
+            f"expected a new version and hash, {task_hash(run.inputs)}."
+        )
 
 
 def task_hash(inputs: Inputs) -> str:

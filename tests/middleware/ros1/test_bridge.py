@@ -78,6 +78,18 @@ def test_a_topic_without_subscribers_outside_is_not_read(graph: Graph) -> None:
     wait_until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
 
+def test_a_topic_that_a_track_withholds_is_not_in_the_graph_and_is_named(graph: Graph) -> None:
+    sim = graph.node()
+    for topic in ("rov/odom", "rov/depth"):
+        sim.bus.publisher(topic, Odometry)
+    sim.bus.hide_topic("rov/odom", "(PATToROSOdom) is not in track 'a'")
+    graph.wait_until_ready()
+    topics = [name for name, _ in call(graph.master.uri, "getPublishedTopics", "/x", "")]
+    assert "/rov/depth" in topics
+    assert "/rov/odom" not in topics
+    assert any("/rov/odom is not sent: it (PATToROSOdom)" in line for line in graph.lines)
+
+
 def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
     actual = heard_by(sim, "twist", TwistStamped)

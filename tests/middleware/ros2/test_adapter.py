@@ -73,6 +73,8 @@ while True:
 
 def test_the_graph_shows_one_node_with_its_endpoints_and_type_hashes(simulator: Simulator) -> None:
     simulator.bus.publisher("rov/odom", Odometry)
+    simulator.bus.publisher("rov/truth", Odometry)
+    simulator.bus.hide_topic("rov/truth", "is not in track 'a'")
     simulator.bus.inbox("rov/twist", TwistStamped)
     simulator.step()
     source = """

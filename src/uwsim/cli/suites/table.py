@@ -64,7 +64,7 @@ def write_reference_table(
     from ...campaigns.shard import drop_shard, read_shard
     from ...runs.execute import Execution
     from ...suites.campaign import cpu_time_text, execute_tasks, total_cpu_time
-    from ...suites.entry import plan_entry, prepare_entry
+    from ...suites.entry import plan_entry, prepare_entries
     from ...suites.seeds import public_seeds
     from ...suites.submission import Card, save_submission, submission_of
     from ...suites.suite import find_suite, read_suite
@@ -77,9 +77,11 @@ def write_reference_table(
     shard = None if options.shard is None else read_shard(options.shard)
     executor, out = options.processes.executor(), options.out.absolute()
     cpu_s = 0.0
-    for family, entry in reference_entries(source, seeds, is_short=options.is_short):
-        runs = prepare_entry(plan_entry(entry), out / family)
-        raise_on_interrupt()
+    entries = dict(reference_entries(source, seeds, is_short=options.is_short))
+    all_runs = prepare_entries({out / name: plan_entry(entry) for name, entry in entries.items()})
+    raise_on_interrupt()
+    for family, entry in entries.items():
+        runs = all_runs[out / family]
         execution = Execution(
             runs=runs,
             executor=executor,
