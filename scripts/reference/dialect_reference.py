@@ -116,6 +116,7 @@ def benchmark_page() -> str:
         ActionSpec,
         ContactSpec,
         EnvironmentSpec,
+        EpisodeLevelsSpec,
         ImageSpec,
         RelativePoseSpec,
         TopicFieldSpec,
@@ -141,6 +142,7 @@ def benchmark_page() -> str:
     parts.append(_section("topicField", TopicFieldSpec))
     parts.append(_section("image", ImageSpec))
     parts.append(_section("action", ActionSpec))
+    parts.append(_section("episodeLevels", EpisodeLevelsSpec))
     for title, form, table in families:
         parts.append(f"## {title}\n")
         for name, cls in table.items():

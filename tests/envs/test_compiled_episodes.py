@@ -159,7 +159,7 @@ def test_the_draws_of_rows_are_those_of_the_engine(plan: Plan) -> None:
     for choices in ({}, {"current": (0.1, 0.3)}, {"current": 0.25}):
         draws = EpisodeDraws(plan, 0).draw(seeds, choices)
         for i, seed in enumerate(seeds):
-            assert draws.level(i) == draw_level(plan.benchmark.scene_updater, seed, choices)
+            assert draws.level(i) == draw_level(plan.benchmark, seed, choices)
             variations = {path: values[i] for path, values in draws.variations.items()}
             assert variations == {draw.path: draw.value for draw in plan.draws(seed)}
 

@@ -41,6 +41,7 @@ from ..schema import (
 from ..world import TIMESTEP
 from .element_names import element_name, error_node
 from .element_order import check_order
+from .environment import selection_errors
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
 from .name_checks import check_function, check_names, check_outcomes
@@ -197,6 +198,9 @@ class _Reader:
             for tag, message in errors:
                 child = node.find(tag)
                 self.diagnostics.error(node if child is None else child, message)
+            if spec is not None and not self.diagnostics.has_errors:
+                for message in selection_errors(spec.scene_updater, environment.episode_levels):
+                    self.diagnostics.error(node.find("episodeLevels"), message)
 
     def read_measures(self, parent: etree._Element) -> list[MeasureSpec]:
         """Read the children of ``<measures>``, in the file's order."""

@@ -1,8 +1,9 @@
 """The level of an episode: the options of ``reset``, and the values that a seed draws.
 
-The value of a swept parameter is one of the benchmark's levels, drawn from the stream
-``environment/level/<name>`` of the episode's seed. ``options={"level": {"current": 0.15}}`` sets
-it, and ``{"current": (0.0, 0.3)}`` draws it uniformly from a range.
+The value of a swept parameter is one of the benchmark's levels in the environment's
+``<episodeLevels>``, drawn from the stream ``environment/level/<name>`` of the episode's seed.
+``options={"level": {"current": 0.15}}`` sets it, and ``{"current": (0.0, 0.3)}`` draws it uniformly
+from a range.
 
 A path to a number of the scene or of an updater, as ``--set`` names it, is a parameter, too:
 ``{"vehicle[bluerov2].hydrodynamics.body[base_link].mass": (12.5, 14.5)}``. A value is that of
@@ -21,12 +22,14 @@ from typing import Any
 
 from ..base.external_values import finite_float
 from ..base.rng import stream
+from ..benchmark.environment import drawn_values
+from ..benchmark.spec import BenchmarkSpec
 from ..benchmark.updater_settings import (
     check_same_levels,
     is_updater_path,
     locate_in_benchmark,
 )
-from ..benchmark.updaters import Level, SceneUpdaterSpec, chain, swept_parameters
+from ..benchmark.updaters import Level, SceneUpdaterSpec, swept_parameters
 from ..errors import BadSetting, did_you_mean, short_repr
 from ..runs.planning.plan import Plan
 from ..scene.settings import locate, overlaps
@@ -57,20 +60,29 @@ def level_stream(name: str) -> str:
     return f"environment/level/{name}"
 
 
-def draw_level(updater: SceneUpdaterSpec, seed: int, choices: Mapping[str, Value]) -> Level:
+def level_values(benchmark: BenchmarkSpec) -> dict[str, tuple[float, ...]]:
+    """Return the values of each swept parameter from which an episode is drawn.
+
+    With environments of several vehicles, they are those of any of them.
+    """
+    selections = [item for spec in benchmark.environments for item in spec.episode_levels]
+    return drawn_values(benchmark.scene_updater, selections)
+
+
+def draw_level(benchmark: BenchmarkSpec, seed: int, choices: Mapping[str, Value]) -> Level:
     """Draw the level of an episode.
 
     Args:
-        updater: the outermost updater of the benchmark.
+        benchmark: the benchmark.
         seed: the seed of the episode.
-        choices: the values or ranges of swept parameters by name; others are drawn from the levels.
+        choices: the values or ranges of swept parameters by name; others are drawn from
+            `level_values`.
     """
     values = []
-    for name, spec in zip(swept_parameters(updater), chain(updater), strict=True):
+    for name, levels in level_values(benchmark).items():
         rng = stream(seed, level_stream(name))
         choice = choices.get(name)
         if choice is None:
-            levels = spec.values()
             values.append((name, levels[int(rng.integers(len(levels)))]))
         elif isinstance(choice, tuple):
             low, high = choice

@@ -180,7 +180,7 @@ class ParallelBenchmarkEnv(ParallelEnv[str, Observation, Action]):  # type: igno
 
     def _begin(self, seed: int, choices: Mapping[str, float | tuple[float, float]]) -> Episode:
         self._seed = seed
-        self._level = draw_level(self._plan.benchmark.scene_updater, seed, choices)
+        self._level = draw_level(self._plan.benchmark, seed, choices)
         self._variations = {path: value for path, value in choices.items() if is_path(path)}
         plan = vary_plan(self._plan, choices)
         self._variations |= {draw.path: draw.value for draw in plan.draws(seed)}

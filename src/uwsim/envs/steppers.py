@@ -78,7 +78,7 @@ class EngineStepper:
     def __init__(self, plan: Plan, statement: str = ENGINE) -> None:
         self._plan, self._cache = plan, TrialCache()
         self.statement, self.has_paths = statement, True
-        level = draw_level(plan.benchmark.scene_updater, 0, {})
+        level = draw_level(plan.benchmark, 0, {})
         self._episode = Episode(plan, 0, level, self._cache)
 
     @property
@@ -100,7 +100,7 @@ class EngineStepper:
         self, seed: int, choices: Mapping[str, Value], observer: TrialObserver | None = None
     ) -> dict[str, Any]:
         """Begin an episode; return its ``level`` and ``variations``."""
-        level = draw_level(self._plan.benchmark.scene_updater, seed, choices)
+        level = draw_level(self._plan.benchmark, seed, choices)
         variations = {path: value for path, value in choices.items() if is_path(path)}
         plan = vary_plan(self._plan, choices)
         variations |= {draw.path: draw.value for draw in plan.draws(seed)}

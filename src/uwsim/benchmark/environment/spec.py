@@ -12,6 +12,7 @@
       <action> <topic>/bluerov2/thrusters</topic> </action>
       <reward>exp(-offset) - 0.01*effort</reward>
       <success>offset &lt; 0.1</success>
+      <episodeLevels> <name>current</name> <values>0 0.1 0.2 0.3</values> </episodeLevels>
     </u:environment>
 """
 
@@ -30,6 +31,7 @@ from ..measures import MeasureSpec, PathFollowingSpec, PositionErrorSpec, Tracki
 from ..metrics.held_commands import TWIST_UNITS, WRENCH_UNITS
 from ..reference_trajectory import TrajectorySpec
 from .channels import CHANNELS, PATH_CHANNELS, REFERENCE_CHANNELS
+from .episode_levels import EpisodeLevelsSpec
 from .relations import ContactSpec, RelativePoseSpec
 from .reward import PATH_SPEED, REWARD_NAMES
 
@@ -133,6 +135,8 @@ class EnvironmentSpec(Spec):
     success: str | None = element(default=None)
     """The criterion of success at the end of an episode: an expression of the values of the
     measures; other than 0 is a success. By default the status ``ok`` is a success."""
+    episode_levels: tuple[EpisodeLevelsSpec, ...] = ()
+    """The levels from which an episode is drawn, for each swept parameter; by default all."""
 
     @property
     def channels(self) -> tuple[str, ...]:

@@ -23,11 +23,11 @@ from ...base.numerics.named_draws import (
     uniforms_of,
 )
 from ...benchmark.updater_settings import locate_in_benchmark
-from ...benchmark.updaters import Level, SceneUpdaterSpec, chain, swept_parameters
+from ...benchmark.updaters import Level
 from ...runs.planning.plan import Plan
 from ...scene.settings import ValueLocation, locate
 from ...scene.variation import VariationSpec, value_at, vary_stream
-from ..levels import FACTORS, Value, level_stream
+from ..levels import FACTORS, Value, level_stream, level_values
 from ..row_task import start_paths
 
 
@@ -58,15 +58,12 @@ class EpisodeDraws:
     """
 
     def __init__(self, plan: Plan, vehicle: int) -> None:
-        updater = plan.benchmark.scene_updater
-        self._parameters: list[tuple[str, SceneUpdaterSpec]] = list(
-            zip(swept_parameters(updater), chain(updater), strict=True)
-        )
+        self._parameters = list(level_values(plan.benchmark).items())
         self._variations = [*_locations(plan)]
         names = [level_stream(name) for name, _ in self._parameters]
         names += [vary_stream(location) for _, location in self._variations]
         self._names: Words = name_words(names)
-        self.factors = [name for name in FACTORS if name not in swept_parameters(updater)]
+        self.factors = [name for name in FACTORS if name not in dict(self._parameters)]
         """The names of the factors of the vehicle."""
         self._factor_names: Words = name_words([level_stream(name) for name in self.factors])
         spec = plan.scene.vehicles[vehicle]
@@ -86,8 +83,8 @@ class EpisodeDraws:
         """
         words = first_words(seed_array(seeds), self._names)
         levels = {
-            name: _draw_parameter(updater, choices.get(name), words[:, i])
-            for i, (name, updater) in enumerate(self._parameters)
+            name: _draw_parameter(values, choices.get(name), words[:, i])
+            for i, (name, values) in enumerate(self._parameters)
         }
         starts = np.repeat(self._start[None], len(seeds), axis=0)
         variations: dict[str, Floats] = {}
@@ -123,10 +120,10 @@ def _locations(plan: Plan) -> list[tuple[VariationSpec, ValueLocation]]:
     ]
 
 
-def _draw_parameter(updater: SceneUpdaterSpec, choice: Value | None, words: Words) -> Floats:
+def _draw_parameter(levels: Sequence[float], choice: Value | None, words: Words) -> Floats:
     """Return the values of a swept parameter for the first words of streams, (m,)."""
     if choice is None:
-        values: Floats = np.array(updater.values())
+        values: Floats = np.array(levels)
         drawn_values: Floats = values[integers_of(words, len(values))]
         return drawn_values
     return _draw_number(choice, words)
