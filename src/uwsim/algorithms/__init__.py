@@ -40,6 +40,7 @@ from .position import PositionP, PositionPI
 from .position_lqr import PositionLQR
 from .predictive import DobMpc, Mpc
 from .scripted import ScriptedPilot
+from .search import Search, SearchCamera, SearchSonar, SearchTruth
 from .survey.bottom_survey import Survey, SurveyNoDvl, SurveyTruth
 from .team.relay import RelayHold, RelayShuttle
 from .team.rendezvous import RendezvousPredict, RendezvousPursuit, RendezvousWait
@@ -94,6 +95,10 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "rendezvous-pursuit": RendezvousPursuit,
     "rendezvous-wait": RendezvousWait,
     "scripted": ScriptedPilot,
+    "search": Search,
+    "search-camera": SearchCamera,
+    "search-sonar": SearchSonar,
+    "search-truth": SearchTruth,
     "ssd-esm": SsdEsm,
     "survey": Survey,
     "survey-no-dvl": SurveyNoDvl,

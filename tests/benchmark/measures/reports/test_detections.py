@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -84,6 +86,26 @@ def test_an_empty_report_and_places_that_are_no_numbers() -> None:
 def test_a_net_without_holes_has_no_score() -> None:
     _, measure = started(holes=[])
     assert (measure.value, measure.missing_reason) == (None, "the net has no holes")
+
+
+def test_an_object_is_sought_where_it_is_at_the_start() -> None:
+    world, _ = started()
+    recorder = FakeBody((3.0, -1.0, -3.0))
+    world.bodies["recorder"] = recorder
+    measure = replace(SPEC, net=None, object_="recorder").bind(world)
+    measure.start()
+    assert (measure.value, measure.details["n_missed"]) == (0.0, 1.0)
+    report(world, measure, [(2.0, 1.5, 3.2)])
+    assert measure.value == 1.0
+    assert measure.details["error"] == pytest.approx(0.2, abs=1e-6)
+    report(world, measure, [(2.0, 1.5, 3.4)])
+    assert (measure.value, measure.details["n_false"]) == (0.0, 1.0)
+
+
+@pytest.mark.parametrize(("net", "sought"), [(None, None), ("net", "recorder")])
+def test_either_a_net_or_an_object_is_sought(net: str | None, sought: str | None) -> None:
+    (error,) = replace(SPEC, net=net, object_=sought).errors()
+    assert error == "<u:detections> has one of <net> and <object>"
 
 
 def test_an_object_that_is_no_net_is_unknown() -> None:

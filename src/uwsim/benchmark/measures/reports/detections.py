@@ -1,4 +1,4 @@
-"""Detections: the reported places of the holes of a net, compared with the true ones.
+"""Detections: the reported places of the holes of a net, or of an object, and the true ones.
 
 .. code-block:: xml
 
@@ -7,13 +7,15 @@
       <net>net</net> <tolerance>0.3</tolerance>
     </u:detections>
 
+With ``<object>wreck</object>`` instead of ``<net>`` the origin of this body is sought.
+
 The places are in the navigation frame of the vehicle, as for ``<u:mapError>``: the axes of L, with
 the origin at the position of the vehicle when the measure starts, but at the depth 0 of L.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -38,15 +40,24 @@ class DetectionsSpec(MeasureSpec):
     target: str = element(refers_to="body")
     """The vehicle whose start is the horizontal origin of the reported places."""
     topic: str
-    """The topic of the reports (sensor_msgs/PointCloud2): all places that are believed to be holes.
-    A report replaces the one before."""
-    net: str
-    """The object with a ``<u:net>`` whose holes are sought."""
+    """The topic of the reports (sensor_msgs/PointCloud2): all places that are believed to be holes,
+    or the object. A report replaces the one before."""
+    net: str | None = None
+    """The object with a ``<u:net>`` whose holes are sought; required without ``object``."""
+    object_: str | None = element("object", default=None, refers_to="body")
+    """The body that is sought, at its place when the measure starts; required without ``net``."""
     tolerance: float = element(exclusive_minimum=0.0)
-    """The greatest distance of a reported place from the centre of a hole [m]."""
+    """The greatest distance of a reported place from the centre of a hole, or from the object
+    [m]."""
+
+    def errors(self) -> Sequence[str]:
+        """Return an error unless there is either a net or an object."""
+        if (self.net is None) == (self.object_ is None):
+            return ["<u:detections> has one of <net> and <object>"]
+        return []
 
     def bind(self, world: World) -> Detections:
-        """Resolve vehicle and net; raises UnknownName if one is unknown."""
+        """Resolve vehicle, and net or object; raises UnknownName if one is unknown."""
         return Detections(self, world)
 
 
@@ -56,6 +67,8 @@ class Detections(Measure):
     Pairs of a reported place and a hole are formed in the order of their distances, each place and
     each hole at most once, while the distance is at most the tolerance. A hole of a pair is found.
     A reported place without a hole is false.
+
+    An object counts as the one hole of a net.
 
     Details: ``precision``, the share of the reported places in pairs [1], None without a report;
     ``recall``, the share of the holes that are found [1], None without holes; ``n_found``,
@@ -70,7 +83,10 @@ class Detections(Measure):
     def __init__(self, spec: DetectionsSpec, world: World) -> None:
         self._spec, self._world = spec, world
         self._target = world.body(spec.target)
-        self._holes = world.surroundings.holes(spec.net)[:, :3]  # in W (n, 3) [m]
+        self._object = None if spec.object_ is None else world.body(spec.object_)
+        self._holes = np.empty((0, 3))  # in W (n, 3) [m]
+        if spec.net is not None:
+            self._holes = world.surroundings.holes(spec.net)[:, :3]
         self._inbox = world.bus.inbox(spec.topic, PointCloud2)
         self._origin: Array | None = None  # of the places, in L (3,) [m]
         self._n_reports = 0  # the number of reported places
@@ -82,6 +98,8 @@ class Detections(Measure):
         localized_from_world = self._world.world_from_localized.inverse()
         position = (localized_from_world @ self._target.world_from_body).position
         self._origin = np.array([position[0], position[1], 0.0])
+        if self._object is not None:
+            self._holes = self._object.world_from_body.position[None]
         self._inbox.clear()
 
     def update(self) -> None:
