@@ -83,7 +83,7 @@ def reports(node: FakeNode) -> list[Array]:
 
 def test_the_expert_reports_the_place_relative_to_its_start_when_it_is_there() -> None:
     node, search = TimedNode(), SearchTruth()
-    search.start(node)  # type: ignore[arg-type]
+    search.start(node)
     place_vehicle(node, -8.0, -6.0)
     transform = Transform(translation=Vector3(x=2.0, y=1.0, z=7.9))
     frame = TransformStamped(child_frame_id="recorder", transform=transform)
@@ -116,7 +116,7 @@ def ping_message(*echoes: tuple[float, float]) -> ProjectedSonarImage:
 
 def test_the_place_of_an_echo_is_visited_and_reported() -> None:
     node, search = TimedNode(parameters={"sonar_x": 0.0, "altitude": 1.5}), SearchWithTruePose()
-    search.start(node)  # type: ignore[arg-type]
+    search.start(node)
     place_vehicle(node, 0.0, 0.0)
     for _ in range(2):
         node.readers["/bluerov2/sonar"](ping_message((8.0, 30.0)))
@@ -135,7 +135,7 @@ def test_a_place_that_is_not_confirmed_is_left_after_the_look() -> None:
             """Do not report."""
 
     node, search = TimedNode(parameters={"look_time": 1.0}), Looking()
-    search.start(node)  # type: ignore[arg-type]
+    search.start(node)
     place_vehicle(node, 0.0, 0.0)
     for _ in range(2):
         node.readers["/bluerov2/sonar"](ping_message((5.0, 10.0), (9.0, 20.0)))
@@ -150,7 +150,7 @@ def test_a_place_that_is_not_confirmed_is_left_after_the_look() -> None:
 
 def test_a_search_without_echoes_follows_its_tracks() -> None:
     node, search = TimedNode(), SearchWithTruePose()
-    search.start(node)  # type: ignore[arg-type]
+    search.start(node)
     place_vehicle(node, 0.0, 0.0)
     twist = next(m.twist for _, m in node.published if isinstance(m, TwistStamped))
     assert twist.linear.y == pytest.approx(0.6)  # east, to the first track
