@@ -46,5 +46,5 @@ def test_the_guidance_enters_the_dock_in_still_water_without_an_impact() -> None
 
 
 def test_rows_refuse_a_scene_with_a_solid_dock() -> None:
-    with pytest.raises(BadSetting, match=r"dock_floor.*trigger ends its levels"):
+    with pytest.raises(BadSetting, match=r"dock_floor.*its measure impact may end a level"):
         gymnasium.make_vec("uwsim/Docking-v0", num_envs=2, stepper="rows")

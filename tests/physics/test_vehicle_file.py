@@ -24,6 +24,7 @@ DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"
 ROBOTS = {
     "bluerov2_heavy": DATA / "vehicles" / "bluerov2_heavy.urdf",
     "g500_physical": DATA / "scenes" / "g500ARM5.urdf",
+    "girona500": DATA / "vehicles" / "girona500.urdf",
     "remus100": DATA / "vehicles" / "remus100.urdf",
     "rexrov": DATA / "vehicles" / "rexrov.urdf",
     "uwsim_compat": DATA / "scenes" / "g500ARM5.urdf",

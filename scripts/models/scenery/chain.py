@@ -19,7 +19,7 @@ INNER_LENGTH, WIDTH = 4.0, 3.4
 def chain() -> tuple[Part, ...]:
     """Return a mooring chain from the origin down to the sea floor at x = 8 m, z = -3 m."""
     steel = weathered_steel(
-        "chain", Coat(paint_share=0.1, growth=0.45, silt=0.2), size=256, metres=1.0
+        "chain", Coat(paint_share=0.1, growth=0.45, silt=0.2), size=192, metres=1.0
     )
     links = chain_links(np.zeros(3), np.array([SPAN, 0.0, -DROP]), sag=0.9, bar=BAR)
     return (steel.cover(*links, crease=2.0),)

@@ -2,13 +2,20 @@
 
 from .homing import Homing, HomingLineOfSight
 from .observed import Docking, DockingGirona
-from .usbl import DockingGironaUsbl, DockingUsbl
+from .usbl import (
+    DockingGironaUsbl,
+    DockingGironaUsblProportional,
+    DockingUsbl,
+    DockingUsblProportional,
+)
 
 __all__ = [
     "Docking",
     "DockingGirona",
     "DockingGironaUsbl",
+    "DockingGironaUsblProportional",
     "DockingUsbl",
+    "DockingUsblProportional",
     "Homing",
     "HomingLineOfSight",
 ]

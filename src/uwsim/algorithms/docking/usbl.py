@@ -1,5 +1,7 @@
 """``docking-usbl`` and ``docking-girona-usbl``: guidance into a dock by sensors of a real vehicle.
 
+``docking-usbl-p`` and ``docking-girona-usbl-p`` have no integral action against the current.
+
 A beacon at the back of the dock replies to a USBL (`beacon`). With IMU, DVL and depth sensor the
 vehicle knows where it is relative to the beacon between replies, and moves by the law of
 `guidance`. The heading of the dock, and the place of the beacon in it, are known.
@@ -95,3 +97,17 @@ class DockingGironaUsbl(DockingUsbl):
         "twist_topic": "/girona500/twist",
     }
     """The parameters of `DockingUsbl`, with the numbers and topics of the larger vehicle."""
+
+
+class DockingUsblProportional(DockingUsbl):
+    """The guidance of ``docking-usbl`` without integral action: it stays beside the axis."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {**DockingUsbl.PARAMETERS, "ki": 0.0}
+    """The parameters of `DockingUsbl`, with ``ki`` 0."""
+
+
+class DockingGironaUsblProportional(DockingGironaUsbl):
+    """The guidance of ``docking-girona-usbl`` without integral action."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {**DockingGironaUsbl.PARAMETERS, "ki": 0.0}
+    """The parameters of `DockingGironaUsbl`, with ``ki`` 0."""
