@@ -46,6 +46,7 @@ from .search import Search, SearchCamera, SearchSonar, SearchTruth
 from .survey.bottom_survey import Survey, SurveyNoDvl, SurveyTruth
 from .team.relay import RelayHold, RelayShuttle
 from .team.rendezvous import RendezvousPredict, RendezvousPursuit, RendezvousWait
+from .teleoperation.operators import OperatorContinuous, OperatorPredict, OperatorWait
 from .tracker_node import merge_parameters
 
 __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
@@ -79,6 +80,9 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "net-inspection": NetInspection,
     "net-inspection-fixed": NetInspectionFixed,
     "nothing": SilentAlgorithm,
+    "operator-continuous": OperatorContinuous,
+    "operator-predict": OperatorPredict,
+    "operator-wait": OperatorWait,
     "orb": Orb,
     "p": P,
     "pi": PI,

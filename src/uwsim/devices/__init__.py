@@ -21,6 +21,7 @@ from .streams.actuator_stream import ActuatorStreamSpec
 from .streams.instrument_stream import InstrumentStreamSpec
 from .structured_light_projector import StructuredLightProjectorSpec
 from .sway import SwaySpec
+from .topic_link import TopicLinkSpec
 
 DEVICES: dict[str, type] = {
     "AcousticCommsDevice": AcousticCommsDeviceSpec,
@@ -43,6 +44,7 @@ DEVICES: dict[str, type] = {
     f"{{{NAMESPACE}}}mavlink": MavlinkSpec,
     f"{{{NAMESPACE}}}instrumentStream": InstrumentStreamSpec,
     f"{{{NAMESPACE}}}actuatorStream": ActuatorStreamSpec,
+    f"{{{NAMESPACE}}}topicLink": TopicLinkSpec,
 }
 """The spec of each device element of a vehicle; extensions of UWSim's dialect are last."""
 

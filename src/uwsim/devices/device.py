@@ -64,6 +64,8 @@ class DeviceTopic:
     """The type of the messages; None: not checked."""
     element: str = ""
     """The element of the device that names the topic; empty: the device derives the name."""
+    relayed_topic: str = ""
+    """The topic whose messages the device publishes on this one; empty: its own messages."""
 
 
 @dataclass(frozen=True, kw_only=True)

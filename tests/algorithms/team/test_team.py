@@ -16,6 +16,7 @@ from uwsim.algorithms.team.position_report import PositionReport, ReportLink
 from uwsim.algorithms.team.relay import RelayHold
 from uwsim.algorithms.team.rendezvous import RendezvousPursuit
 from uwsim.errors import BadSetting
+from uwsim.messages import UInt8MultiArray
 
 
 class TimedNode(FakeNode):
@@ -83,3 +84,36 @@ def test_the_two_vehicles_share_no_object_but_the_node() -> None:
         if isinstance(node, ast.ClassDef) and node.name == "_Member"
     ]
     assert "_members" not in ast.unparse(member)
+
+
+def test_two_vehicles_that_hear_of_one_another_approach() -> None:
+    """Run the start of the task rendezvous: both know their places and send reports."""
+    with uwsim.load("rendezvous-scene", seed=0, timestep=0.01) as simulation:
+        simulation.attach(RendezvousPursuit())
+        first_gap = gap_of(simulation)
+        simulation.advance(25.0)
+        # both go at 0.6 m/s after the first reports, in a current of at most 0.2 m/s
+        assert 8.0 < first_gap - gap_of(simulation) < 35.0
+
+
+def gap_of(simulation: uwsim.Simulation) -> float:
+    places = [simulation.pose(name).position for name in ("first", "second")]
+    return float(np.linalg.norm(places[0] - places[1]))
+
+
+def test_a_relay_brings_the_bytes_of_a_packet_to_the_receiver() -> None:
+    """Run the task relay in quiet water, where the relay sends from near its start."""
+    received: list[bytes] = []
+    settings = {"AcousticCommsChannel[acoustic/0].noiseLvl": 40.0}
+    with uwsim.load("relay-scene", seed=0, timestep=0.01, settings=settings) as simulation:
+        simulation.world.bus.subscribe(
+            "/receiver_modem/rx", UInt8MultiArray, lambda m: received.append(m.data.tobytes())
+        )
+        simulation.attach(RelayHold(), parameters={"receiver": "-30 0"})
+        simulation.advance(4.0)
+        data = np.arange(24, dtype=np.uint8)
+        simulation.publish("/sender_modem/tx", UInt8MultiArray(data=data))
+        simulation.advance(16.0)
+        assert data.tobytes() in received
+        # the relay sends it again: once from the sender, and at least once from the relay
+        assert received.count(data.tobytes()) >= 2

@@ -178,6 +178,7 @@ def disturb(simulation: uwsim.Simulation) -> None:
     sent: list[tuple[str, object]] = [
         ("dataNavigator", TwistStamped(twist=twist)),
         ("rov/twist", TwistStamped(twist=twist)),
+        ("operator/twist", TwistStamped(twist=twist)),
         ("puppet/cmd_vel", twist),
         ("rov/arm", joints),
         ("puppet/arm", joints),

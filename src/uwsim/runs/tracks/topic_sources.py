@@ -17,7 +17,8 @@ def topic_sources(scene: SceneSpec) -> dict[str, str]:
     The keys are the names of the topics without a leading slash. A kind is the element of the
     sensor or device, such as ``virtualCamera``. It is the element of the interface where this
     names no sensor (``PATToROSOdom``, ``ArmToROSJointState``), or where its messages contain what
-    the sensor does not measure (``u:segmentationToROS``).
+    the sensor does not measure (``u:segmentationToROS``). A topic that a ``<u:topicLink>`` relays
+    has the kind of its source.
     """
     kinds = {
         topic: _source_kind(interface, scene)
@@ -25,7 +26,8 @@ def topic_sources(scene: SceneSpec) -> dict[str, str]:
         if not interface.subscribes
         for topic in _topics_of(interface)
     }
-    return kinds | {topic: kind for topic, kind, is_read in _device_topics(scene) if not is_read}
+    kinds |= {topic: kind for topic, kind, is_read in _device_topics(scene) if not is_read}
+    return kinds | {topic: kinds[source] for topic, source in _relays(scene) if source in kinds}
 
 
 def command_topics(scene: SceneSpec) -> frozenset[str]:
@@ -64,3 +66,13 @@ def _device_topics(scene: SceneSpec) -> Iterator[tuple[str, str, bool]]:
             if isinstance(part, DeviceSpec):
                 for topic in part.topics:
                     yield topic.name.strip().lstrip("/"), element, topic.is_subscribed
+
+
+def _relays(scene: SceneSpec) -> Iterator[tuple[str, str]]:
+    """Yield each topic on which a device publishes the messages of another, and that other one."""
+    for vehicle in scene.vehicles:
+        for _, part in vehicle.all_parts():
+            if isinstance(part, DeviceSpec):
+                for topic in part.topics:
+                    if topic.relayed_topic:
+                        yield topic.name, topic.relayed_topic

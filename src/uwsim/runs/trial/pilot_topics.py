@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ...devices.lamp import LampSpec
 from ...devices.mavlink import MavlinkDevice
+from ...devices.topic_link import TopicLinkSpec
 from ...simulation import Simulation
 from ...topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from ...topics.ros_odom_to_pat import ROSOdomToPATSpec
@@ -31,21 +32,28 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
     autopilots = {device.vehicle_name: device.name for device in _open_autopilots(simulation)}
     if name in autopilots:
         parameters["autopilot"] = autopilots[name]
+    vehicle = world.model.scene.vehicles[index]
+    links = vehicle.parts_of(TopicLinkSpec)
+    routes = {route.target: route.from_ for link in links for route in link.command}
+
+    def operator_topic(topic: str) -> str:
+        return routes.get(topic.strip("/"), topic)
+
     for spec in world.model.scene.ros_interfaces:
         if getattr(spec, "vehicle_name", name) != name:
             continue
         if name in autopilots and isinstance(spec, STEERING_SPECS):
             continue
         if isinstance(spec, ROSTwistToPATSpec):
-            parameters.setdefault("twist_topic", spec.topic)
+            parameters.setdefault("twist_topic", operator_topic(spec.topic))
         elif isinstance(spec, ROSOdomToPATSpec):
-            parameters.setdefault("odom_topic", spec.topic)
+            parameters.setdefault("odom_topic", operator_topic(spec.topic))
         elif isinstance(spec, ROSJointStateToArmSpec):
-            parameters.setdefault("joints_topic", spec.topic)
+            parameters.setdefault("joints_topic", operator_topic(spec.topic))
         elif isinstance(spec, ROSThrustersToPATSpec) and world.vehicles.find(name).thrusters:
-            parameters.setdefault("thrusters_topic", spec.topic)
+            parameters.setdefault("thrusters_topic", operator_topic(spec.topic))
             parameters["n_thrusters"] = float(len(world.vehicles.find(name).thrusters))
-    lamps = (lamp.brightness_topic for lamp in world.model.scene.vehicles[index].parts_of(LampSpec))
+    lamps = (operator_topic(lamp.brightness_topic) for lamp in vehicle.parts_of(LampSpec))
     if topics := " ".join(dict.fromkeys(topic for topic in lamps if " " not in topic)):
         parameters["lamp_topics"] = topics
     joints = list(world.vehicles.find(name).joint_names)
