@@ -100,7 +100,7 @@ class RouteState(Record):
 
     rng: np.random.Generator
     """The random generator of losses and jitter; two numbers are drawn for each message."""
-    due: deque[tuple[float, Any]] = field(default_factory=deque)
+    due_messages: deque[tuple[float, Any]] = field(default_factory=deque)
     """The messages on their way, each with the time at which it arrives [s]."""
     last_time: float = -math.inf
     """The time at which the newest message was taken [s]."""
@@ -149,14 +149,16 @@ class TopicRoute:
         if loss_draw < self._link.loss:
             return
         due_time = time + self._link.delay + self._link.jitter * jitter_draw
-        state.due.append((max(due_time, state.due[-1][0]) if state.due else due_time, message))
+        state.due_messages.append(
+            (max(due_time, state.due_messages[-1][0]) if state.due_messages else due_time, message)
+        )
         self.publish_due(time)
 
     def publish_due(self, time: float) -> None:
         """Publish the messages that are due at ``time`` [s]."""
-        due = self.state.due
-        while due and due[0][0] <= time + TIME_TOLERANCE:
-            message = due.popleft()[1]
+        messages = self.state.due_messages
+        while messages and messages[0][0] <= time + TIME_TOLERANCE:
+            message = messages.popleft()[1]
             try:
                 self._publish(message)
             except BadMessage as error:  # the receiver cannot use it: it is lost
@@ -208,5 +210,5 @@ class TopicLink(Device):
 
     def idle_until(self, time: float) -> float:
         """Return the time at which the next message arrives [s]; inf if none is on its way."""
-        due_times = [state.due[0][0] for state in self.state.routes if state.due]
+        due_times = [state.due_messages[0][0] for state in self.state.routes if state.due_messages]
         return min(due_times, default=math.inf)

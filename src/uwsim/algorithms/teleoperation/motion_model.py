@@ -1,4 +1,4 @@
-r"""What an operator expects of a vehicle over a link with a delay.
+r"""The motion that an operator expects of a vehicle over a link with a delay.
 
 The vehicle takes the commanded velocity u through the water after a first-order lag T, and drifts
 with the current c. With the delay d in each direction, a command sent at t has an effect at t + d.

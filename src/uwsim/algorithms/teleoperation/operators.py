@@ -83,7 +83,7 @@ class Operator(abc.ABC):
         node.subscribe(topics["imu"], Imu, self._on_imu)
         self._navigator = Navigator(node, {f"{name}_topic": topics[name] for name in topics})
         self.model = MotionModel(self.number("lag"))
-        """What the operator expects of the vehicle."""
+        """The motion that the operator expects of the vehicle."""
         self._report_time = 0.0  # of the newest report [s]
         n_waiting = round(self.number("reaction") / PERIOD)
         self._intentions = deque([np.zeros(3)] * n_waiting)  # (3,) each [m/s]
