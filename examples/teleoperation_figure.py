@@ -19,7 +19,7 @@ from uwsim.analysis.plots import PALETTE, save_plot, styled_figure
 
 OPERATORS = ("operator-continuous", "operator-wait", "operator-predict")
 WALLS = ((-1.5, 0.8), (2.0, -0.8))
-"""North of each wall and east of the middle of its gate [m]."""
+"""The north coordinate of each wall and the east coordinate of the middle of its gate [m]."""
 GATE_WIDTH, POOL_WIDTH = 1.3, 8.0
 """The widths of a gate and of the pool [m]."""
 GOAL = (4.6, 0.0)

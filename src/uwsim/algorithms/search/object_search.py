@@ -179,7 +179,7 @@ class SearchCamera(ObjectSearch):
         "image_topic": "/bluerov2/camera",
         "info_topic": "/bluerov2/camera_info",
     }
-    """Also the place of the camera in base axes, and the ``object_height`` of the middle of the
+    """The place of the camera in base axes, and the ``object_height`` of the middle of the
     object over the bottom [m]; the number of images with the object before a report."""
 
     def _connect(self, node: Node) -> None:
@@ -230,7 +230,7 @@ class Search(SearchCamera):
         "sonar_x": 0.2,
         "sonar_topic": "/bluerov2/sonar",
     }
-    """Also the numbers ``threshold`` and ``min_range`` of `EchoDetector`; the distance within which
+    """The numbers ``threshold`` and ``min_range`` of `EchoDetector`; the distance within which
     echoes are one place [m]; the number of pings with an echo before its place is visited; the time
     for which the camera looks at a place [s]; the place of the sonar forward of the base [m]."""
 
@@ -324,7 +324,7 @@ class SearchTruth(ObjectSearch):
         "odom_topic": "/bluerov2/odom",
         "frames_topic": "/tf",
     }
-    """Also the name of the object, and the topics of the true poses."""
+    """The name of the object, and the topics of the true poses."""
 
     def _navigation(self, node: Node) -> Navigator:
         return TrueNavigator(node, self._text("odom_topic"))

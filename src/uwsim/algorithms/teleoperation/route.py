@@ -53,8 +53,8 @@ class Route:
         """
         while True:
             direction, leg_length = self._describe_leg()
-            along = float(np.dot(position - self._points[self._leg], direction))
-            self._progress = min(max(self._progress, along), leg_length)
+            distance_along = float(np.dot(position - self._points[self._leg], direction))
+            self._progress = min(max(self._progress, distance_along), leg_length)
             if self._progress < leg_length or self._leg == len(self._points) - 2:
                 return
             self._leg, self._progress = self._leg + 1, 0.0
