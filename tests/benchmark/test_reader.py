@@ -558,7 +558,9 @@ def test_the_bundled_benchmarks_are_those_of_the_design(name: str) -> None:
     assert told == dict.fromkeys(box + face, None) | {scored[0]: "autoInit"}
 
 
-SCORED_BY_EXTENSIONS = ("circle", "formation", "helix", "lemniscate", "relay", "square")
+SCORED_BY_EXTENSIONS = (
+    *("circle", "formation", "helix", "inspection", "lemniscate", "relay", "square", "survey"),
+)
 """Bundled benchmarks whose score is that of a measure which the original lacks."""
 
 
