@@ -125,14 +125,22 @@ ALONE = [path for path in SCENES if path.read_text().count("<vehicle>") == 1]
 """Scenes with one vehicle: two of them may be too far apart to be seen in one view."""
 
 COVERED = {
+    ("docking-girona-scene", "orbit"): 0.007,
+    ("docking-girona-scene", "top"): 0.008,
     ("docking-scene", "orbit"): 0.004,
+    ("net-scene", "orbit"): 0.001,
+    ("net-scene", "top"): 0.003,
     ("pier-waves-scene", "orbit"): 0.005,
     ("pier-waves-scene", "top"): 0.002,
     ("pipe-scene", "orbit"): 0.002,
     ("pipe-scene", "top"): 0.0015,
+    ("search-scene", "orbit"): 0.0015,
+    ("search-scene", "top"): 0.004,
+    ("teleoperation-scene", "orbit"): 0.001,
+    ("teleoperation-scene", "top"): 0.001,
     ("wreck-physical-scene", "top"): 0.003,
 }
-"""The least shares of vehicles that are far away or that a pier or a wreck covers; else 1 %.
+"""The least shares of vehicles that are far away, or behind a pier, wreck, dock or net; else 1 %.
 
 From above the water the colours are enlarged by 1.3 by refraction, but not these numbers of parts.
 """

@@ -221,7 +221,7 @@ def test_rows_refuse_what_they_cannot_compute(tmp_path: Path) -> None:
     with pytest.raises(BadSetting, match="its reward has the measure way"):
         make_env(benchmark, reward="-way", stepper="rows")
     *_, info = play(make_env(benchmark, stepper="rows"), 1, lambda _: np.zeros(8, np.float32))
-    assert info["measures"].keys() == {"offset", "energy"}
+    assert info["measures"].keys() == {"offset", "energy", "outcome"}
     assert info["score"] == info["measures"]["offset"]
 
 

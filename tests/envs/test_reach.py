@@ -172,6 +172,7 @@ def test_two_thousand_random_steps_give_finite_numbers(task: str) -> None:
 
 def test_the_columns_for_rewards_are_in_the_logs() -> None:
     assert {name for name, spec in MEASURES.items() if spec.columns} == {
+        "u:delivery",
         "u:grasp",
         "u:insertion",
         "u:reach",

@@ -44,10 +44,10 @@ def test_a_copied_benchmark_has_its_scene(tmp_path: Path) -> None:
 
 def test_an_edited_copy_is_used(tmp_path: Path) -> None:
     copy_bundled("grasp-scene", tmp_path)
-    robot = tmp_path / "g500_physical.xml"
-    text = robot.read_text()
-    assert "thruster" in text
-    robot.write_text(text.replace("<thruster", "<thrusterr"))
+    part = tmp_path / "parts" / "g500_thrusters.xml"
+    text = part.read_text()
+    assert "<thruster" in text
+    part.write_text(text.replace("<thruster", "<thrusterr"))
     with pytest.raises(Exception, match="thrusterr"):
         open_scene(read_scene(tmp_path / "grasp-scene.xml"))
 

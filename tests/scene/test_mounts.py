@@ -24,6 +24,7 @@ from uwsim.sensors.gps_sensor import GpsSensorSpec
 from uwsim.sensors.imu import ImuSpec
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
 from uwsim.sensors.range_sensor import RangeSensorSpec
+from uwsim.sensors.usbl import UsblSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 
 NED = Pose.from_xyz((0.0, 0.0, 0.0), (math.pi, 0.0, -math.pi / 2.0))
@@ -254,8 +255,8 @@ def test_the_z_axis_of_a_dvl_points_where_the_word_says(
 
 
 def test_every_sensor_with_a_direction_can_be_turned_by_a_word() -> None:
-    """All but those that measure at a point, whatever is added to the table."""
-    undirected = {ImuSpec, GpsSensorSpec, PressureSensorSpec}
+    """All but those that measure at a point or hear all around, whatever is added to the table."""
+    undirected = {ImuSpec, GpsSensorSpec, PressureSensorSpec, UsblSpec}
     for spec in SENSORS.values():
         assert hasattr(spec, "look_at") == (spec not in undirected), spec
 

@@ -200,7 +200,7 @@ COMMANDS: dict[str, Command] = {
     "kubernetes": Command(
         module="campaigns.kubernetes",
         function="kubernetes",
-        summary="Print jobs that run a benchmark or suite on a Kubernetes cluster.",
+        summary="Print jobs that run a benchmark or suite on Kubernetes.",
         examples=(
             "uwsim kubernetes --tasks 500 --image uwsim --volume-claim shared "
             "-- bench currents --repeat 100 --out /campaign/pi.result > jobs.yaml",
@@ -284,7 +284,7 @@ COMMANDS: dict[str, Command] = {
     "slurm": Command(
         module="campaigns.slurm",
         function="slurm",
-        summary="Print a script that runs a benchmark or suite on a Slurm cluster.",
+        summary="Print a script that runs a benchmark or suite on Slurm.",
         examples=(
             "uwsim slurm --tasks 500 -- bench currents --repeat 100 --out /shared/pi.result "
             "> job.sh",

@@ -70,6 +70,11 @@ def start_delivery() -> tuple[Sea, Delivery]:
     return sea, measure
 
 
+def test_the_column_for_rewards_is_in_the_log() -> None:
+    _, measure = start_delivery()
+    assert set(SPEC.columns) <= set(measure.log_header[1:])
+
+
 def test_packets_beyond_the_range_are_not_delivered() -> None:
     sea, measure = start_delivery()
     sea.run(measure, 10.0)

@@ -34,7 +34,7 @@ def kubernetes(
         ),
     ] = "/campaign",
 ) -> None:
-    """Print jobs that run a benchmark or suite on a Kubernetes cluster.
+    """Print jobs that run a benchmark or suite on Kubernetes.
 
     The YAML for `kubectl apply -f` has an indexed job, with an index for each shard
     (`--shard`), and a suspended job that merges them. Its first lines tell how to start the merge.

@@ -43,7 +43,7 @@ def slurm(
         ),
     ] = None,
 ) -> None:
-    """Print a script that runs a benchmark or suite on a Slurm cluster.
+    """Print a script that runs a benchmark or suite on Slurm.
 
     `bash job.sh` submits an array of tasks, one for each shard (`--shard`), and a job
     that merges them when all have ended well. Submitted again, it runs what is missing. Tasks run
