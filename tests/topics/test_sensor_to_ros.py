@@ -35,6 +35,7 @@ OURS = f"""
     <u:imagingSonar> <name>fls</name> {SONAR} </u:imagingSonar>
     <u:scanningSonar> <name>mss</name> {SONAR} </u:scanningSonar>
     <u:sideScanSonar> <name>sss</name> {SONAR} </u:sideScanSonar>
+    <u:usbl> <name>usbl</name> <relativeTo>base_link</relativeTo> <beacon>rov</beacon> </u:usbl>
     <u:battery> <name>battery</name> <capacity>100</capacity> <voltage>16</voltage> </u:battery>
     <u:motorCurrents> <name>currents</name> <voltage>16</voltage> </u:motorCurrents>
     <CustomCommsDevice> {COMMS} </CustomCommsDevice>

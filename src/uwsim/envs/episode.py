@@ -13,6 +13,8 @@ from typing import Any, NoReturn
 from ..base.expression import parse
 from ..base.geometry import Array
 from ..benchmark.environment import EnvironmentSpec, RewardFunction
+from ..benchmark.measures import find_outcome_spec
+from ..benchmark.measures.outcome import MISSED_STATUS
 from ..benchmark.spec import MAX_TASK_DURATION
 from ..benchmark.updaters import Level, interval
 from ..errors import BadSetting
@@ -166,15 +168,22 @@ class Episode:
         )
 
     def is_success(self, agent: int = 0) -> bool:
-        """Return whether the level has ended with the status ``ok`` and an agent's success."""
-        if self.row is None or self.row.status != "ok":
-            return False
+        """Return whether the level has ended with the status ``ok`` and an agent's success.
+
+        A success of the environment replaces that of a ``<u:outcome>``, but not its failures.
+        """
         criterion = self._channels[agent].spec.success
+        if self.row is None or self.row.status not in self._good_statuses(criterion):
+            return False
         if criterion is None:
             return True
         values = {name: value for name, (value, _) in self.row.measures.items()}
         result = parse(criterion, list(values)).evaluate(values)
         return result is not None and result != 0.0
+
+    def _good_statuses(self, criterion: str | None) -> tuple[str, ...]:
+        has_outcome = find_outcome_spec(self._plan.benchmark.measures) is not None
+        return ("ok",) if criterion is None or not has_outcome else ("ok", MISSED_STATUS)
 
     def result(self, agent: int = 0) -> dict[str, Any]:
         """Return the result of the level for ``info``; empty before its end."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...base.geometry import Array
-from ...base.numerics.linear import length
+from ...base.numerics.linear import dot, length
 from ...errors import BadSetting
 
 
@@ -53,7 +53,7 @@ class Route:
         """
         while True:
             direction, leg_length = self._describe_leg()
-            distance_along = float(np.dot(position - self._points[self._leg], direction))
+            distance_along = dot(position - self._points[self._leg], direction)
             self._progress = min(max(self._progress, distance_along), leg_length)
             if self._progress < leg_length or self._leg == len(self._points) - 2:
                 return

@@ -20,6 +20,7 @@ from ...base.numerics.memory import Floats, Ints64
 from ...benchmark.environment.channels import CHANNELS
 from ...benchmark.environment.program import Program, compile_program, run_rows
 from ...benchmark.measures import EnergySpec
+from ...benchmark.measures.outcome import MISSED_STATUS
 from ...runs.planning.plan import Plan
 from ...runs.planning.trial_cache import compile_plan
 from ...runs.trial.status import SIMULATION_ERROR
@@ -156,7 +157,10 @@ class Episodes:
             measures[self._outcome.name] = (status == "ok") * is_judged
         status[has_failed] = SIMULATION_ERROR
         success = run_rows(self._success, values)
-        is_success = np.isfinite(success) & (success != 0.0) & (status == "ok")
+        is_success = np.isfinite(success) & (success != 0.0)
+        # a success of the environment replaces that of an outcome, but not its failures
+        good_statuses = ("ok",) if self.task.spec.success is None else ("ok", MISSED_STATUS)
+        is_success &= np.isin(status.astype(str), good_statuses)
         no_score = np.full(len(rows), np.nan)
         return {
             "measures": measures,
