@@ -13,24 +13,23 @@ but their desired positions: collisions are not avoided. ``formation-p`` has no 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from functools import partial
 from typing import ClassVar
 
 import numpy as np
 
 from ...bus import Node
-from ...errors import BadSetting, UnknownName
-from ...messages import Empty, Float64MultiArray, Twist, TwistStamped, Vector3, header
-from ..policy import AGENTS, OBSERVATION, START_SERVICE, slices_of
-from ..tracker_node import merge_parameters
+from ...errors import BadSetting
+from ...messages import Float64MultiArray, TwistStamped
+from ..parametric import ParametricAlgorithm, start_benchmark, velocity_command
+from ..policy import AGENTS, OBSERVATION, slices_of
 from .controller import StationKeeper
 
 CHANNELS = ("positionError", "referenceVelocity")
 """The parts of each observation that are needed."""
 
 
-class FormationPI:
+class FormationPI(ParametricAlgorithm):
     """A proportional-integral controller of the positions of several vehicles."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -42,17 +41,9 @@ class FormationPI:
     """The gains ``kp`` [1/s] and ``ki`` [1/s^2], the speed ``limit`` of an axis [m/s], and the
     vehicles, which the benchmark sets."""
 
-    def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
     def start(self, node: Node) -> None:
         """Subscribe to the observations of each vehicle, and start the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         self._node, self._limit = node, float(self._parameters["limit"])
         vehicles = str(self._parameters[AGENTS]).split()
         if not vehicles:
@@ -66,8 +57,7 @@ class FormationPI:
             node.subscribe(
                 f"{vehicle}/{OBSERVATION}", Float64MultiArray, partial(self._command, vehicle)
             )
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     def _make_law(self) -> StationKeeper:
         gains = {name: float(self._parameters[name]) for name in ("kp", "ki", "limit")}
@@ -83,9 +73,7 @@ class FormationPI:
         self._times[vehicle] = now
         correction = self._laws[vehicle].step(parts["positionError"], dt)
         velocity = np.clip(parts["referenceVelocity"] + correction, -self._limit, self._limit)
-        x, y, z = velocity.tolist()
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=0.0))
-        self._publishers[vehicle](TwistStamped(header=header(now), twist=twist))
+        self._publishers[vehicle](velocity_command(velocity, 0.0, time=now))
 
 
 class FormationP(FormationPI):

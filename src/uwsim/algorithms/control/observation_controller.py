@@ -4,35 +4,27 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 from ...base.geometry import Array
 from ...bus import Node
-from ...errors import BadSetting, UnknownName
-from ...messages import Empty, Float64MultiArray, Twist, TwistStamped, Vector3, header
-from ..policy import OBSERVATION, START_SERVICE, slices_of
-from ..tracker_node import merge_parameters
+from ...errors import BadSetting
+from ...messages import Float64MultiArray, TwistStamped
+from ..parametric import ParametricAlgorithm, start_benchmark, velocity_command
+from ..policy import OBSERVATION, slices_of
 
 
-class ObservationReader(abc.ABC):
+class ObservationReader(ParametricAlgorithm, abc.ABC):
     """An algorithm that acts on each observation of a benchmark."""
 
-    PARAMETERS: ClassVar[Mapping[str, float | str]] = {}
-    """The parameters with their defaults."""
     CHANNELS: ClassVar[tuple[str, ...]] = ("positionError",)
     """The parts of the observation that are needed."""
     KIND: ClassVar[str] = "controller"
     """The kind of the algorithm in messages."""
 
     def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
+        super().__init__()
         self._time: float | None = None
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
 
     def start(self, node: Node) -> None:
         """Read the parameters, subscribe to the observations, and start the benchmark."""
@@ -40,8 +32,7 @@ class ObservationReader(abc.ABC):
         self._node = node
         self._open_topic(node)
         node.subscribe(OBSERVATION, Float64MultiArray, self._on_observation)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -60,12 +51,6 @@ class ObservationReader(abc.ABC):
             parts: the parts of the observation by name.
             dt: the time since the last observation, 0 at the first one [s].
         """
-
-    def _read_parameters(self, parameters: Mapping[str, float | str]) -> None:
-        self._parameters = merge_parameters(self.PARAMETERS, parameters)
-
-    def _number(self, name: str) -> float:
-        return float(self._parameters[name])
 
     def _on_observation(self, message: Float64MultiArray) -> None:
         parts = {name: message.data[part] for name, part in slices_of(message).items()}
@@ -100,6 +85,4 @@ class ObservationController(ObservationReader):
 
     def _act(self, parts: Mapping[str, Array], dt: float) -> None:
         velocity, turn_rate = self.command(parts, dt)
-        x, y, z = velocity.tolist()
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=turn_rate))
-        self._publish(TwistStamped(header=header(self._node.now), twist=twist))
+        self._publish(velocity_command(velocity, turn_rate, time=self._node.now))

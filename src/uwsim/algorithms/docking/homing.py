@@ -21,15 +21,13 @@ from __future__ import annotations
 import abc
 import math
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
 
 from ...bus import Node
-from ...errors import UnknownName
-from ...messages import Empty, Float64MultiArray, MultiArrayLayout
-from ..policy import START_SERVICE
+from ...messages import Float64MultiArray, MultiArrayLayout
+from ..parametric import start_benchmark
 from ..tracker_node import merge_parameters
 from .beacon import BEACON_PARAMETERS, SENSOR_TOPICS, BeaconNavigator
 
@@ -84,8 +82,7 @@ class BeaconSteering(abc.ABC):
         self._turn_fins = node.publisher(str(parameters["fins_topic"]), Float64MultiArray)
         self._navigator = BeaconNavigator(node, parameters)
         node.create_timer(self._numbers["period"], self._steer)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     @abc.abstractmethod
     def course(self, north: float, east: float) -> float:

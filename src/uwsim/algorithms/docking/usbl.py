@@ -11,15 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
 
 from ...bus import Node
-from ...errors import UnknownName
-from ...messages import Empty, Twist, TwistStamped, Vector3, header
-from ..policy import START_SERVICE
+from ...messages import TwistStamped
+from ..parametric import start_benchmark, velocity_command
 from ..tracker_node import merge_parameters
 from .beacon import BEACON_PARAMETERS, SENSOR_TOPICS, BeaconNavigator
 from .guidance import GAINS, GIRONA_GAINS, DockingGains, DockingGuidance
@@ -62,8 +60,7 @@ class DockingUsbl:
         self._publish = node.publisher(str(parameters["twist_topic"]), TwistStamped)
         self._navigator = BeaconNavigator(node, parameters)
         node.create_timer(self._period, self._send_command)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     def _send_command(self) -> None:
         if not self._navigator.is_ready:
@@ -73,9 +70,7 @@ class DockingUsbl:
         cosine, sine = math.cos(heading), math.sin(heading)
         error = np.array([cosine * north + sine * east, cosine * east - sine * north, down])
         velocity, rate = self._guidance.command(error, self._axis - heading, self._period)
-        x, y, z = velocity.tolist()
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=rate))
-        self._publish(TwistStamped(header=header(self._node.now), twist=twist))
+        self._publish(velocity_command(velocity, rate, time=self._node.now))
 
 
 class DockingGironaUsbl(DockingUsbl):

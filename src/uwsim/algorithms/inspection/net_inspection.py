@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
@@ -18,10 +17,8 @@ import numpy as np
 from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.linear import rotate_back
 from ...bus import Node
-from ...errors import UnknownName
 from ...messages import (
     CameraInfo,
-    Empty,
     Image,
     LaserScan,
     PointCloud2,
@@ -33,8 +30,7 @@ from ...messages import (
     point_cloud,
 )
 from ..navigation import NavigationSpec, Navigator
-from ..policy import START_SERVICE
-from ..tracker_node import merge_parameters
+from ..parametric import ParametricAlgorithm, start_benchmark
 from .hole_chart import HoleChart
 from .hole_detector import HoleDetector
 from .net_plane import NetPlane, fit_net
@@ -45,7 +41,7 @@ MIN_RANGE = 0.3
 """The smallest range of a hit of the sonar [m]."""
 
 
-class NetInspection:
+class NetInspection(ParametricAlgorithm):
     """An inspection of a net at a distance that a sonar measures."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -81,17 +77,9 @@ class NetInspection:
     greatest commanded velocity [m/s]; the places of camera and sonar forward of the base [m]; the
     topics."""
 
-    def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
     def start(self, node: Node) -> None:
         """Read the parameters, connect to topics, and start the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         self._node = node
         self._detector: HoleDetector | None = None
         self._plane: NetPlane | None = None
@@ -109,8 +97,7 @@ class NetInspection:
         node.subscribe(self._text("info_topic"), CameraInfo, self._on_info)
         node.subscribe(self._text("image_topic"), Image, self._on_image)
         node.subscribe(self._text("sonar_topic"), LaserScan, self._on_scan)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     def measure_net(self, scan: LaserScan) -> NetPlane | None:
         """Return the plane of the net from a scan; None if too few beams hit it."""
@@ -120,12 +107,6 @@ class NetInspection:
         ranges, angles = ranges[is_hit], angles[is_hit]
         forward = ranges * np.cos(angles) + self._number("sonar_x")
         return fit_net(np.stack([forward, ranges * np.sin(angles)], axis=1))
-
-    def _number(self, name: str) -> float:
-        return float(self._parameters[name])
-
-    def _text(self, name: str) -> str:
-        return str(self._parameters[name])
 
     def _on_info(self, message: CameraInfo) -> None:
         if self._detector is None:

@@ -9,27 +9,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
 
 from ...base.geometry import Array, Intrinsics
 from ...bus import Node
-from ...errors import UnknownName
 from ...messages import (
     CameraInfo,
-    Empty,
     Image,
     Range,
-    Twist,
     TwistStamped,
-    Vector3,
-    header,
     pixels_of,
 )
-from ..policy import START_SERVICE
-from ..tracker_node import merge_parameters
+from ..parametric import ParametricAlgorithm, start_benchmark, velocity_command
 from .guidance import GuidanceGains, LineGuidance
 from .line_detector import DetectedLine, LineDetector
 from .observed_line import GAINS
@@ -41,7 +34,7 @@ STRAIGHT_ON = DetectedLine(0.0, 0.0, 0.0)
 """The line that is followed while none is in the image: ahead of the vehicle."""
 
 
-class PipeCamera:
+class PipeCamera(ParametricAlgorithm):
     """A guidance along a pipe that is detected in camera images."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -66,19 +59,14 @@ class PipeCamera:
     sides above the ground [m], and the topics."""
 
     def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
+        super().__init__()
         self._detector: LineDetector | None = None
         self._altitude: float | None = None  # of the base above the ground [m]
         self._time: float | None = None
 
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
     def start(self, node: Node) -> None:
         """Read the parameters, connect to topics, and start the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         self._node = node
         gains = GuidanceGains(**{name: self._number(name) for name in GAINS})
         self._guidance = LineGuidance(gains)
@@ -86,15 +74,11 @@ class PipeCamera:
         node.subscribe(str(self._parameters["info_topic"]), CameraInfo, self._on_info)
         node.subscribe(str(self._parameters["altitude_topic"]), Range, self._on_altitude)
         node.subscribe(str(self._parameters["image_topic"]), Image, self._on_image)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     def choose_line(self, line: DetectedLine | None) -> DetectedLine | None:
         """Return the line to follow: the detected one; None: straight on."""
         return line
-
-    def _number(self, name: str) -> float:
-        return float(self._parameters[name])
 
     def _on_info(self, message: CameraInfo) -> None:
         if self._detector is None:
@@ -118,9 +102,7 @@ class PipeCamera:
         height = self._altitude - self._number("camera_z") - self._number("pipe_height")
         line = self.choose_line(self._detector.detect(pixels_of(message), height))
         velocity, turn_rate = self._command(line or STRAIGHT_ON, dt)
-        x, y, z = velocity.tolist()
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=turn_rate))
-        self._publish(TwistStamped(header=header(self._node.now), twist=twist))
+        self._publish(velocity_command(velocity, turn_rate, time=self._node.now))
 
     def _command(self, line: DetectedLine, dt: float) -> tuple[Array, float]:
         """Return the velocity (3,) [m/s] and the turn rate [rad/s] towards a line."""

@@ -15,25 +15,19 @@ from __future__ import annotations
 import abc
 import math
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
 
 from ...base.geometry import Array, Pose
 from ...bus import Node
-from ...errors import UnknownName
 from ...messages import (
     CameraInfo,
-    Empty,
     Image,
     PointCloud2,
     ProjectedSonarImage,
     TFMessage,
-    Twist,
     TwistStamped,
-    Vector3,
-    header,
     pixels_of,
     point_cloud,
 )
@@ -41,9 +35,8 @@ from ..grasp import ColourDetector, Pinhole, StationController, TrackingState, V
 from ..grasp.variants import TrueNavigator
 from ..inspection.hole_chart import HoleChart
 from ..navigation import NavigationSpec, Navigator
-from ..policy import START_SERVICE
+from ..parametric import ParametricAlgorithm, start_benchmark, velocity_command
 from ..survey.tracks import TrackGuidance, plan_tracks
-from ..tracker_node import merge_parameters
 from .echo_detector import EchoDetector
 
 PERIOD = 0.1
@@ -58,7 +51,7 @@ BASE_FROM_CAMERA: Array = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0
 """The rotation of a camera that looks down, the top of its image forward, (3, 3)."""
 
 
-class ObjectSearch(abc.ABC):
+class ObjectSearch(ParametricAlgorithm, abc.ABC):
     """A search over an area; subclasses know which places to look at, and what to report."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -79,17 +72,9 @@ class ObjectSearch(abc.ABC):
     tracks [m]; the ``speed`` [m/s]; the ``altitude`` [m]; the gain of the position [1/s]; the
     ``look_ahead`` distance of the tracks [m]; the topics."""
 
-    def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
     def start(self, node: Node) -> None:
         """Read the parameters, connect to topics, and start the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         self._node = node
         number = self._number
         spacing, speed = number("spacing"), number("speed")
@@ -103,8 +88,7 @@ class ObjectSearch(abc.ABC):
         self._navigator = self._navigation(node)
         self._connect(node)
         node.create_timer(PERIOD, self._command)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     def _navigation(self, node: Node) -> Navigator:
         topics = {name: self._text(name) for name in ("imu_topic", "dvl_topic", "depth_topic")}
@@ -117,12 +101,6 @@ class ObjectSearch(abc.ABC):
     @abc.abstractmethod
     def _goal(self, position: Array) -> Array | None:
         """Return the place to go to, (2,) [m]; None to follow the tracks."""
-
-    def _number(self, name: str) -> float:
-        return float(self._parameters[name])
-
-    def _text(self, name: str) -> str:
-        return str(self._parameters[name])
 
     def _bottom_depth(self, position: Array) -> float:
         """Return the depth of the bottom; where it is unknown, that which keeps the depth [m]."""
@@ -161,9 +139,7 @@ class ObjectSearch(abc.ABC):
             goal_velocity=np.zeros(3),
         )
         velocity, turn_rate = self._law.step(state, PERIOD)
-        x, y, z = velocity.tolist()
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=turn_rate))
-        self._publish_twist(TwistStamped(header=header(self._node.now), twist=twist))
+        self._publish_twist(velocity_command(velocity, turn_rate, time=self._node.now))
 
 
 class SearchCamera(ObjectSearch):

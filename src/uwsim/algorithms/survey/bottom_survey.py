@@ -11,7 +11,6 @@ from __future__ import annotations
 import abc
 import math
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
@@ -19,9 +18,7 @@ import numpy as np
 from ...base.geometry import Array, Pose, rotation_from_quaternion
 from ...base.numerics.linear import rotate, rotate_rows
 from ...bus import Node
-from ...errors import UnknownName
 from ...messages import (
-    Empty,
     Imu,
     LaserScan,
     Odometry,
@@ -34,8 +31,7 @@ from ...messages import (
     point_cloud,
 )
 from ..navigation import NavigationSpec, Navigator
-from ..policy import START_SERVICE
-from ..tracker_node import merge_parameters
+from ..parametric import ParametricAlgorithm, start_benchmark
 from .bottom_map import BottomMap
 from .tracks import TrackGuidance, plan_tracks
 
@@ -43,7 +39,7 @@ MIN_RANGE = 0.3
 """The smallest range of a sounding [m]."""
 
 
-class BottomSurvey(abc.ABC):
+class BottomSurvey(ParametricAlgorithm, abc.ABC):
     """A survey along parallel tracks; subclasses know where the vehicle is."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -75,17 +71,9 @@ class BottomSurvey(abc.ABC):
     [m/s]; the gain ``ki`` of the integral of the velocity error [1/s]; the ``cell`` of the map [m]
     and the ``period`` of its messages [s]; the place of the sonar in base axes [m]; the topics."""
 
-    def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
     def start(self, node: Node) -> None:
         """Read the parameters, connect to topics, and start the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         self._node = node
         number = self._number
         length, width = number("length"), number("width")
@@ -99,8 +87,7 @@ class BottomSurvey(abc.ABC):
         self._publish_map = node.publisher(self._text("map_topic"), PointCloud2)
         self._connect(node)
         node.subscribe(self._text("sonar_topic"), LaserScan, self._on_scan)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     @abc.abstractmethod
     def _connect(self, node: Node) -> None:
@@ -115,12 +102,6 @@ class BottomSurvey(abc.ABC):
         Args:
             dt: the time since the last call [s].
         """
-
-    def _number(self, name: str) -> float:
-        return float(self._parameters[name])
-
-    def _text(self, name: str) -> str:
-        return str(self._parameters[name])
 
     def _on_scan(self, message: LaserScan) -> None:
         dt = 0.0 if self._step_time is None else self._node.now - self._step_time

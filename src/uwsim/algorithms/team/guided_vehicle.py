@@ -13,9 +13,10 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.numerics.linear import length
 from ...bus import Node
-from ...messages import NavSatFix, Twist, TwistStamped, Vector3, header
+from ...messages import NavSatFix, TwistStamped
 from ..grasp.station import StationController, TrackingState
 from ..navigation.navigator import Navigator
+from ..parametric import velocity_command
 
 PERIOD = 0.1
 """The time between two commands [s]."""
@@ -92,9 +93,7 @@ class GuidedVehicle:
             goal_velocity=np.zeros(3),
         )
         velocity, turn_rate = self._law.step(state, PERIOD)
-        x, y, z = velocity.tolist()
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(x=0.0, y=0.0, z=turn_rate))
-        self._publish(TwistStamped(header=header(self._node.now), twist=twist))
+        self._publish(velocity_command(velocity, turn_rate, time=self._node.now))
 
 
 def place_beside(place: Array, origin: Array, distance: float) -> Array:

@@ -13,7 +13,6 @@ The two differ in where the vehicle is and sends:
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
@@ -21,10 +20,9 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.numerics.linear import length
 from ...bus import Node
-from ...errors import BadSetting, UnknownName
-from ...messages import Empty, MultiArrayLayout, UInt8MultiArray
-from ..policy import START_SERVICE
-from ..tracker_node import merge_parameters
+from ...errors import BadSetting
+from ...messages import MultiArrayLayout, UInt8MultiArray
+from ..parametric import ParametricAlgorithm, start_benchmark
 from .guided_vehicle import GuidedVehicle, place_beside
 from .packet_store import PacketStore
 
@@ -32,7 +30,7 @@ ARRIVAL_DISTANCE = 3.0
 """The distance at which the vehicle has arrived at a place [m]."""
 
 
-class RelayHold:
+class RelayHold(ParametricAlgorithm):
     """A vehicle in the middle between two modems, which sends again what it receives."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -49,17 +47,9 @@ class RelayHold:
     the sender [s]; the time between two packets that the vehicle sends, ``slot`` [s]; and how many
     it sends after each that arrives, ``copies``."""
 
-    def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
     def start(self, node: Node) -> None:
         """Start the vehicle and its modem, and the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         self._node = node
         name = str(self._parameters["vehicle"])
         self.vehicle = GuidedVehicle(node, name, speed=self._number("speed"))
@@ -71,11 +61,7 @@ class RelayHold:
         self._publish = node.publisher(f"/{name}_modem/tx", UInt8MultiArray)
         node.subscribe(f"/{name}_modem/rx", UInt8MultiArray, self._on_packet)
         node.create_timer(self._number("slot"), self._step)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
-
-    def _number(self, name: str) -> float:
-        return float(self._parameters[name])
+        start_benchmark(node)
 
     def _place(self, name: str) -> Array:
         """Return the place of an end, (3,) [m]; its depth is 0."""

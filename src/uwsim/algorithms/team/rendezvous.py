@@ -15,14 +15,10 @@ that they do not collide. Before its first report a vehicle stays at its place.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 from ...bus import Node
-from ...errors import UnknownName
-from ...messages import Empty
-from ..policy import START_SERVICE
-from ..tracker_node import merge_parameters
+from ..parametric import ParametricAlgorithm, start_benchmark
 from .guided_vehicle import GuidedVehicle, place_beside
 from .position_report import PositionReport, ReportLink
 
@@ -30,7 +26,7 @@ MAX_AGE = 20.0
 """The greatest age of a report up to which the motion of the other vehicle is predicted [s]."""
 
 
-class RendezvousPursuit:
+class RendezvousPursuit(ParametricAlgorithm):
     """Two vehicles that go to the newest reported place of one another."""
 
     IS_WAITING: ClassVar[bool] = False
@@ -47,17 +43,9 @@ class RendezvousPursuit:
     [s]; the ``speed`` through the water [m/s]; the ``standoff`` [m]; whether to predict the motion
     (1 or 0); and the ``latency`` of a report [s]."""
 
-    def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
     def start(self, node: Node) -> None:
         """Start the two vehicles, and the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         names = str(self._parameters["vehicles"]).split()
         numbers = {
             name: float(value) for name, value in self._parameters.items() if name != "vehicles"
@@ -68,8 +56,7 @@ class RendezvousPursuit:
         ]
         self._n_slots = 0
         node.create_timer(numbers["period"] / len(names), self._send_next)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     def _send_next(self) -> None:
         """Send the report of the next vehicle: each has its own slot of the period."""

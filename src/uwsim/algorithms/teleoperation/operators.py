@@ -23,7 +23,6 @@ from __future__ import annotations
 import abc
 from collections import deque
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import ClassVar
 
 import numpy as np
@@ -31,11 +30,9 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.numerics.linear import length, rotate_back
 from ...bus import Node
-from ...errors import UnknownName
-from ...messages import Empty, Imu, Twist, TwistStamped, Vector3, header, seconds
+from ...messages import Imu, TwistStamped, seconds
 from ..navigation.navigator import Navigator
-from ..policy import START_SERVICE
-from ..tracker_node import merge_parameters
+from ..parametric import ParametricAlgorithm, start_benchmark, velocity_command
 from .motion_model import MotionModel
 from .route import Route
 
@@ -45,7 +42,7 @@ SMALL_MOVE = 0.05
 """The length below which a move is not worth a wait [m]."""
 
 
-class Operator(abc.ABC):
+class Operator(ParametricAlgorithm, abc.ABC):
     """A model of an operator, who reads and writes the operator's topics of a link."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -66,17 +63,9 @@ class Operator(abc.ABC):
     ``look_ahead`` of the point that the operator steers to [m]; the ``reaction`` time [s]; the time
     constant ``lag`` that he expects of the vehicle [s]; and topics."""
 
-    def __init__(self) -> None:
-        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The parameters in force, after `start`."""
-        return dict(self._parameters)
-
     def start(self, node: Node) -> None:
         """Subscribe to the reports, and start the benchmark."""
-        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         self._node = node
         self._route = Route.parse(str(self._parameters["route"]))
         topics = {name: str(self._parameters[f"{name}_topic"]) for name in ("imu", "dvl", "depth")}
@@ -89,12 +78,11 @@ class Operator(abc.ABC):
         self._intentions = deque([np.zeros(3)] * n_waiting)  # (3,) each [m/s]
         self._publish = node.publisher(str(self._parameters["twist_topic"]), TwistStamped)
         node.create_timer(PERIOD, self._command)
-        with suppress(UnknownName):
-            node.call(START_SERVICE, Empty())
+        start_benchmark(node)
 
     def number(self, name: str) -> float:
         """Return a parameter that is a number."""
-        return float(self._parameters[name])
+        return self._number(name)
 
     def _on_imu(self, message: Imu) -> None:
         self._report_time = seconds(message.header.stamp)
@@ -148,10 +136,8 @@ class Operator(abc.ABC):
         self._intentions.append(self.choose_velocity(now) - self.model.current)
         velocity = self._intentions.popleft()
         self.model.add_command(now, velocity, PERIOD)
-        x, y, z = rotate_back(self._navigator.pose.rotation, velocity).tolist()
-        zero = Vector3(x=0.0, y=0.0, z=0.0)
-        twist = Twist(linear=Vector3(x=x, y=y, z=z), angular=zero)
-        self._publish(TwistStamped(header=header(now), twist=twist))
+        command = rotate_back(self._navigator.pose.rotation, velocity)
+        self._publish(velocity_command(command, 0.0, time=now))
 
 
 class OperatorContinuous(Operator):
