@@ -83,6 +83,29 @@ def compute_burial(
     return depths
 
 
+def place_piece(model: Model, object_from_mesh: Array) -> tuple[list[Array], float, float]:
+    """Return the vertices of each mesh of a piece, where it starts along y, and its length [m].
+
+    Args:
+        model: the model of the piece.
+        object_from_mesh: its pose and scale, (4, 4) [m].
+
+    Raises:
+        AssetError: the piece has no extent along y.
+    """
+    matrix, position = object_from_mesh[:3, :3], object_from_mesh[:3, 3]
+    pieces = [
+        transform_points(m.vertices.astype(np.float64), matrix, position) for m in model.meshes
+    ]
+    start = min(float(points[:, 1].min()) for points in pieces)
+    length = max(float(points[:, 1].max()) for points in pieces) - start
+    if length < 1e-3:
+        raise AssetError(
+            f"{model.name}: its extent along y is {length:g} m; expected 0.001 m or more."
+        )
+    return pieces, start, length
+
+
 def bend_model(model: Model, object_from_mesh: Array, line: BentLine) -> Model:
     """Return copies of a model, end to end along its y axis, along a line.
 
@@ -94,16 +117,8 @@ def bend_model(model: Model, object_from_mesh: Array, line: BentLine) -> Model:
     Raises:
         AssetError: the piece has no extent along y, or the copies have too many triangles.
     """
-    matrix, position = object_from_mesh[:3, :3], object_from_mesh[:3, 3]
-    pieces = [
-        transform_points(m.vertices.astype(np.float64), matrix, position) for m in model.meshes
-    ]
-    start = min(float(points[:, 1].min()) for points in pieces)
-    piece = max(float(points[:, 1].max()) for points in pieces) - start
-    if piece < 1e-3:
-        raise AssetError(
-            f"{model.name}: its extent along y is {piece:g} m; expected 0.001 m or more."
-        )
+    matrix = object_from_mesh[:3, :3]
+    pieces, start, piece = place_piece(model, object_from_mesh)
     n = max(1, round(line.length / piece))
     if n * sum(len(mesh.triangles) for mesh in model.meshes) > MAX_TRIANGLES:
         raise AssetError(

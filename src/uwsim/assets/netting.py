@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.linear import dot, inverse, product, rotate_rows, transform_points
+from ..base.numerics.linear import dot, inverse, product, rotate_rows
 from ..errors import AssetError
+from .bending import place_piece
 from .mesh import Mesh, Model
 
 MAX_TRIANGLES = 2_000_000
@@ -28,16 +29,8 @@ def weave_net(model: Model, object_from_mesh: Array, twines: Array) -> Model:
     Raises:
         AssetError: the piece has no extent along y, or the copies have too many triangles.
     """
-    matrix, position = object_from_mesh[:3, :3], object_from_mesh[:3, 3]
-    pieces = [
-        transform_points(m.vertices.astype(np.float64), matrix, position) for m in model.meshes
-    ]
-    low = min(float(points[:, 1].min()) for points in pieces)
-    extent = max(float(points[:, 1].max()) for points in pieces) - low
-    if extent < 1e-3:
-        raise AssetError(
-            f"{model.name}: its extent along y is {extent:g} m; expected 0.001 m or more."
-        )
+    matrix = object_from_mesh[:3, :3]
+    pieces, low, extent = place_piece(model, object_from_mesh)
     if len(twines) * sum(len(mesh.triangles) for mesh in model.meshes) > MAX_TRIANGLES:
         raise AssetError(
             f"{model.name}: {len(twines)} twines have more than {MAX_TRIANGLES} triangles."
