@@ -18,21 +18,22 @@ from ...errors import BadSetting, ErrorCollector
 from ..bench import is_piloted
 from ..options.client_options import ClientOptions
 from ..options.completion import algorithm_names
-from ..options.help_texts import INPUT, OUTPUT, RUN, option
+from ..options.help_texts import INPUT, OUTPUT, option
 from ..options.live import LiveOptions
 from ..options.options import WorkerOptions
 from ..output.console import standard_output
 from ..output.progress import progress
 from .list import SuiteArgument
+from .seed_options import DrawnSeedOptions, ShardOption
 
 if TYPE_CHECKING:
     from ...campaigns.shard import Shard
     from ...results.result import Result
     from ...runs.executors.executor import OnLevel
     from ...runs.planning.plan import Plan
-    from ...suites.entry import Entry, Seeds
+    from ...suites.entry import Entry
     from ...suites.submission import Card
-    from ...suites.suite import Suite, TaskSpec
+    from ...suites.suite import TaskSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,59 +92,6 @@ class EntryOptions:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SeedOptions:
-    """The options that choose the seeds."""
-
-    split: Annotated[
-        str | None,
-        option(
-            RUN,
-            "--split",
-            metavar="NAME",
-            help="The seeds of validation, training or test. [the suite's first split]",
-        ),
-    ] = None
-    seeds: Annotated[
-        int | None,
-        option(RUN, "--seeds", metavar="K", min=1, help="Only the first K seeds of the split."),
-    ] = None
-    date: Annotated[
-        str | None,
-        option(RUN, "--date", metavar="YYYY-MM-DD", help="The date of the split test."),
-    ] = None
-    beacon: Annotated[
-        str | None,
-        option(RUN, "--beacon", metavar="TEXT", help="The public text of that date."),
-    ] = None
-    is_short: Annotated[
-        bool,
-        option(RUN, "--short", help="One seed and the middle level of each task, as a trial."),
-    ] = False
-
-    @property
-    def count(self) -> int | None:
-        """The number of seeds; None for all of the split."""
-        return 1 if self.is_short else self.seeds
-
-    def read(self, suite: Suite) -> Seeds:
-        """Return the seeds; raise BadSetting or UnknownName."""
-        from ...suites.seeds import draw_test_seeds, public_seeds
-        from ...suites.suite import TEST_SPLIT
-
-        split = self.split or suite.spec.splits[0].name
-        is_test = split == TEST_SPLIT
-        for name, value in (("--date", self.date), ("--beacon", self.beacon)):
-            if is_test != (value is not None):
-                raise BadSetting(
-                    f"--split {split}: " + (f"add {name}." if is_test else f"leave out {name}.")
-                )
-        if is_test:
-            count = self.count or suite.spec.splits[0].count
-            return draw_test_seeds(suite, self.date or "", self.beacon or "", count)
-        return public_seeds(suite, split, self.count)
-
-
-@dataclass(frozen=True, kw_only=True)
 class CardOptions:
     """The options of what the author states about the algorithm."""
 
@@ -175,19 +123,10 @@ class SuiteRunOptions:
     """The options of ``uwsim suite run``."""
 
     entry: EntryOptions
-    seeds: SeedOptions
+    seeds: DrawnSeedOptions
     processes: WorkerOptions
     client_options: ClientOptions
-    shard: Annotated[
-        str | None,
-        option(
-            RUN,
-            "--shard",
-            metavar="I/N",
-            help="Part I of N of the trials, into an --out that all parts share. The same command "
-            "without --shard then completes and writes the entry.",
-        ),
-    ] = None
+    shard: ShardOption = None
     out: Annotated[Path, option(OUTPUT, "--out", metavar="DIR", help="The folder of the entry.")]
     card: CardOptions
     live_options: LiveOptions
@@ -234,7 +173,7 @@ def run_entry(context: typer.Context, suite: SuiteArgument, options: SuiteRunOpt
         algorithms={task: names[algorithm] for task, algorithm in algorithms.items()},
         track=track,
         seeds=seeds,
-        is_short=options.seeds.is_short,
+        is_short=options.seeds.public_seeds.is_short,
         settings=tuple(options.entry.settings or ()),
         client=options.client_options.client_spec(),
     )

@@ -11,11 +11,12 @@ from typing import Annotated
 import typer
 
 from ...base.interrupts import raise_on_interrupt
-from ..options.help_texts import INPUT, OUTPUT, RUN, option
+from ..options.help_texts import INPUT, OUTPUT, option
 from ..options.options import WorkerOptions
 from ..output.console import standard_output
 from .list import SuiteArgument
 from .run import result_table, show_progress
+from .seed_options import SeedOptions, ShardOption
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,29 +27,9 @@ class TableOptions:
         str | None,
         option(INPUT, "--tasks", metavar="TASK,...", help="Only these tasks. Without it all."),
     ] = None
-    seeds: Annotated[
-        int | None,
-        option(RUN, "--seeds", metavar="K", min=1, help="Only the first K seeds of the split."),
-    ] = None
-    split: Annotated[
-        str | None,
-        option(RUN, "--split", metavar="NAME", help="A public split. [the suite's first]"),
-    ] = None
-    is_short: Annotated[
-        bool,
-        option(RUN, "--short", help="One seed and the middle level of each task, as a trial."),
-    ] = False
+    seeds: SeedOptions
     processes: WorkerOptions
-    shard: Annotated[
-        str | None,
-        option(
-            RUN,
-            "--shard",
-            metavar="I/N",
-            help="Part I of N of the trials, into an --out that all parts share. The same command "
-            "without --shard then completes and writes the entries.",
-        ),
-    ] = None
+    shard: ShardOption = None
     out: Annotated[Path, option(OUTPUT, "--out", metavar="DIR", help="The folder of the entries.")]
 
 
@@ -65,19 +46,17 @@ def write_reference_table(
     from ...runs.execute import Execution
     from ...suites.campaign import cpu_time_text, execute_tasks, total_cpu_time
     from ...suites.entry import plan_entry, prepare_entries
-    from ...suites.seeds import public_seeds
     from ...suites.submission import Card, save_submission, submission_of
     from ...suites.suite import find_suite, read_suite
     from ...suites.table import describe_family, reference_entries
 
     source = read_suite(find_suite(suite).absolute())
     source = source.select_tasks([name for name in (options.tasks or "").split(",") if name])
-    count = 1 if options.is_short else options.seeds
-    seeds = public_seeds(source, options.split or source.spec.splits[0].name, count)
+    seeds = options.seeds.read(source)
     shard = None if options.shard is None else read_shard(options.shard)
     executor, out = options.processes.executor(), options.out.absolute()
     cpu_s = 0.0
-    entries = dict(reference_entries(source, seeds, is_short=options.is_short))
+    entries = dict(reference_entries(source, seeds, is_short=options.seeds.is_short))
     all_runs = prepare_entries({out / name: plan_entry(entry) for name, entry in entries.items()})
     raise_on_interrupt()
     for family, entry in entries.items():
