@@ -59,8 +59,6 @@ class Px4Stub:
         """The HIL_SENSOR messages since the start."""
         self.other_messages: list[Any] = []
         """The other messages since the start."""
-        self.frames = b""
-        """The bytes that have arrived since the start, as whole frames."""
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
 
@@ -89,7 +87,6 @@ class Px4Stub:
                     n_sensors += is_sensor
                     if n_sensors < N_START:
                         continue
-                    self.frames += message.get_msgbuf()
                     if is_sensor:
                         self.sensors.append(message)
                         self._answer(connection, link, message)
