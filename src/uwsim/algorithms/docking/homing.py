@@ -27,8 +27,7 @@ import numpy as np
 
 from ...bus import Node
 from ...messages import Float64MultiArray, MultiArrayLayout
-from ..parametric import start_benchmark
-from ..tracker_node import merge_parameters
+from ..parametric import ParametricAlgorithm, start_benchmark
 from .beacon import BEACON_PARAMETERS, SENSOR_TOPICS, BeaconNavigator
 
 MAX_PITCH = math.radians(15.0)
@@ -41,7 +40,7 @@ MAX_FIN = math.radians(13.5)
 """The greatest angle of a fin [rad]."""
 
 
-class BeaconSteering(abc.ABC):
+class BeaconSteering(ParametricAlgorithm, abc.ABC):
     """A helmsman of a torpedo-shaped vehicle; derived classes define the course."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -70,17 +69,18 @@ class BeaconSteering(abc.ABC):
     the topics."""
 
     def __init__(self) -> None:
+        super().__init__()
         self._depth_integral = 0.0  # [m s]
 
     def start(self, node: Node) -> None:
         """Read the parameters, connect to topics, and start the benchmark."""
-        parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._read_parameters(node.parameters)
         self._numbers = {
-            name: float(parameters[name]) for name in self.PARAMETERS if "topic" not in name
+            name: self._number(name) for name in self.PARAMETERS if "topic" not in name
         }
-        self._push = node.publisher(str(parameters["propeller_topic"]), Float64MultiArray)
-        self._turn_fins = node.publisher(str(parameters["fins_topic"]), Float64MultiArray)
-        self._navigator = BeaconNavigator(node, parameters)
+        self._push = node.publisher(self._text("propeller_topic"), Float64MultiArray)
+        self._turn_fins = node.publisher(self._text("fins_topic"), Float64MultiArray)
+        self._navigator = BeaconNavigator(node, self.parameters)
         node.create_timer(self._numbers["period"], self._steer)
         start_benchmark(node)
 

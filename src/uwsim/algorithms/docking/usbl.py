@@ -17,13 +17,12 @@ import numpy as np
 
 from ...bus import Node
 from ...messages import TwistStamped
-from ..parametric import start_benchmark, velocity_command
-from ..tracker_node import merge_parameters
+from ..parametric import ParametricAlgorithm, start_benchmark, velocity_command
 from .beacon import BEACON_PARAMETERS, SENSOR_TOPICS, BeaconNavigator
 from .guidance import GAINS, GIRONA_GAINS, DockingGains, DockingGuidance
 
 
-class DockingUsbl:
+class DockingUsbl(ParametricAlgorithm):
     """A guidance into a dock by an acoustic beacon, IMU, DVL and depth sensor."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -45,20 +44,19 @@ class DockingUsbl:
 
     def start(self, node: Node) -> None:
         """Read the parameters, connect to topics, and start the benchmark."""
-        parameters = merge_parameters(self.PARAMETERS, node.parameters)
-        number = {name: float(parameters[name]) for name in self.PARAMETERS if "topic" not in name}
-        self._node, self._axis, self._period = node, number["axis"], number["period"]
-        self._guidance = DockingGuidance(DockingGains(**{name: number[name] for name in GAINS}))
-        distance = number["beacon_ahead"]
+        self._read_parameters(node.parameters)
+        self._node, self._axis, self._period = node, self._number("axis"), self._number("period")
+        gains = DockingGains(**{name: self._number(name) for name in GAINS})
+        self._guidance, distance = DockingGuidance(gains), self._number("beacon_ahead")
         self._beacon_from_goal = np.array(
             [
                 distance * math.cos(self._axis),
                 distance * math.sin(self._axis),
-                number["beacon_below"],
+                self._number("beacon_below"),
             ]
         )  # north, east, down (3,) [m]
-        self._publish = node.publisher(str(parameters["twist_topic"]), TwistStamped)
-        self._navigator = BeaconNavigator(node, parameters)
+        self._publish = node.publisher(self._text("twist_topic"), TwistStamped)
+        self._navigator = BeaconNavigator(node, self.parameters)
         node.create_timer(self._period, self._send_command)
         start_benchmark(node)
 
