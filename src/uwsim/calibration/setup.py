@@ -34,7 +34,7 @@ from pathlib import Path
 from typing import Literal
 
 from ..errors import FileError, choices
-from ..schema import Diagnostics, Numbers, Spec, element, parse, read
+from ..schema import Diagnostics, Numbers, Spec, check_head, element, parse, read
 
 ROOT = "calibration"
 """The name of the root element."""
@@ -232,11 +232,8 @@ def read_setup(path: Path, *, needs_pictures: bool = True) -> SetupSpec:
     """
     diagnostics = Diagnostics(path)
     document = parse(path, error=SetupError)
-    if document.root.tag != ROOT:
-        diagnostics.error(
-            document.root, f"the root element is <{document.root.tag}>; expected <{ROOT}>"
-        )
-        diagnostics.check(SetupError)
+    check_head(document, ROOT, diagnostics)
+    diagnostics.check(SetupError)
     setup = read(SetupSpec, document.root, diagnostics)
     if setup is not None:
         _check_names(setup, diagnostics)

@@ -36,7 +36,7 @@ from ..base.files.input_files import compute_hash
 from ..devices import DEVICES
 from ..errors import AssetNotFound, FileError, UnknownName, choices, did_you_mean
 from ..runs.tracks.track import Track
-from ..schema import Diagnostics, Spec, element, parse, read
+from ..schema import Diagnostics, Spec, check_head, element, parse, read
 from ..schema.names import prefixed_name
 from ..sensors import SENSORS
 from ..topics import INTERFACES
@@ -211,11 +211,8 @@ def read_suite(path: Path) -> Suite:
     """
     diagnostics = Diagnostics(path)
     document = parse(path, error=SuiteError)
-    if document.root.tag != ROOT:
-        diagnostics.error(
-            document.root, f"the root element is <{document.root.tag}>; expected <{ROOT}>"
-        )
-        diagnostics.check(SuiteError)
+    check_head(document, ROOT, diagnostics)
+    diagnostics.check(SuiteError)
     spec = read(SuiteSpec, document.root, diagnostics)
     if spec is not None:
         _check_names(spec, diagnostics)
