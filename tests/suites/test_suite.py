@@ -8,8 +8,11 @@ import pytest
 
 from uwsim.algorithms import ALGORITHMS
 from uwsim.assets.bundled import bundled_files
+from uwsim.benchmark.reader import read_benchmark
+from uwsim.benchmark.updaters import levels
 from uwsim.errors import AssetNotFound, BadSetting, SeveralErrors, UnknownName
-from uwsim.suites.entry import check_settings, choose_algorithms
+from uwsim.runs.planning.plan import chosen_levels
+from uwsim.suites.entry import check_settings, choose_algorithms, read_levels
 from uwsim.suites.suite import Suite, SuiteError, find_suite, read_suite
 
 SUITE = """<suite>
@@ -94,7 +97,16 @@ def test_a_bundled_suite_is_valid(name: str) -> None:
     assert set(spec.tracks[0].sources) < set(spec.tracks[1].sources)
     names = {name for task in spec.tasks for name in (*task.baselines, task.control)}
     assert names - {None} <= set(ALGORITHMS)
-    assert all(task.baselines and task.control and task.description for task in spec.tasks)
+    assert all(
+        len(task.baselines) >= 2 and task.control and task.description for task in spec.tasks
+    )
+
+
+@pytest.mark.parametrize("name", bundled_files("suites"))
+def test_the_levels_of_a_task_are_those_of_its_benchmark(name: str) -> None:
+    for task in read_suite(find_suite(name)).spec.tasks:
+        spec = read_benchmark(bundled_files("benchmarks")[task.benchmark])
+        assert chosen_levels(levels(spec.scene_updater), read_levels(task))
 
 
 def test_an_algorithm_is_for_all_tasks_or_for_one(suite: Suite) -> None:

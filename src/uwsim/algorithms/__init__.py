@@ -15,7 +15,7 @@ from .autopilot_missions import AutopilotPath, AutopilotStation
 from .control import PI, Feedforward, P
 from .control.formation import FormationP, FormationPI
 from .control.nothing import SilentAlgorithm
-from .control.reach import Reach
+from .control.reach import Reach, ReachProportional
 from .direct import Esm, InverseCompositional, SsdEsm
 from .docking import (
     Docking,
@@ -35,7 +35,7 @@ from .orb import Orb
 from .panel import Plug, PlugRigid, PlugTruth, Valve, ValveRigid, ValveTruth
 from .pilot import Pilot
 from .pipe.cable_camera import CableCamera, CableNoMemory
-from .pipe.camera_line import PipeCamera
+from .pipe.camera_line import PipeCamera, PipeCameraProportional
 from .pipe.observed_line import PipeFollowing, PipeStraight
 from .policy import is_policy
 from .position import PositionP, PositionPI
@@ -88,6 +88,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "pi": PI,
     "pilot": Pilot,
     "pipe-camera": PipeCamera,
+    "pipe-camera-p": PipeCameraProportional,
     "pipe-following": PipeFollowing,
     "pipe-straight": PipeStraight,
     "plug": Plug,
@@ -97,6 +98,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "position-p": PositionP,
     "position-pi": PositionPI,
     "reach": Reach,
+    "reach-p": ReachProportional,
     "relay-hold": RelayHold,
     "relay-shuttle": RelayShuttle,
     "rendezvous-predict": RendezvousPredict,

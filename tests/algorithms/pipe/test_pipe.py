@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import fields
 
 import numpy as np
 import pytest
 
+from uwsim.algorithms.pipe.camera_line import PipeCameraProportional
 from uwsim.algorithms.pipe.guidance import GuidanceGains, LineGuidance
 from uwsim.algorithms.pipe.line_detector import LineDetector, fit_line
 from uwsim.algorithms.pipe.observed_line import PipeStraight
@@ -86,3 +88,14 @@ def test_a_fitted_line_is_that_of_least_squares() -> None:
 def test_the_control_condition_moves_straight_on() -> None:
     velocity, turn = PipeStraight().command({}, 0.1)
     assert (velocity.tolist(), turn) == ([0.3, 0.0, 0.0], 0.0)
+
+
+def test_the_guidance_without_an_integral_does_not_oppose_a_current() -> None:
+    names = [field.name for field in fields(GuidanceGains)]
+    parameters = PipeCameraProportional.PARAMETERS
+    guidance = LineGuidance(GuidanceGains(**{name: float(parameters[name]) for name in names}))
+    x, error = np.array([1.0, 0.0, 0.0]), np.array([0.0, -0.1, 0.0])
+    first, _ = guidance.command(error, x, x, 0.5)
+    for _ in range(20):
+        last, _ = guidance.command(error, x, x, 0.5)
+    np.testing.assert_array_equal(first, last)

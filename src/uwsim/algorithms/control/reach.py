@@ -156,3 +156,10 @@ class Reach(ObservationController):
             )
             columns.append(difference / (2.0 * JOINT_STEP))
         return np.stack(columns, axis=1)
+
+
+class ReachProportional(Reach):
+    """``reach`` without an estimate of the water's velocity: a current shifts the vehicle."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {**Reach.PARAMETERS, "filter_time": 1e9}
+    """The parameters of `Reach`, with a ``filter_time`` [s] that no level reaches."""

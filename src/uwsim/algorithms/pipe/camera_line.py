@@ -1,4 +1,4 @@
-"""``pipe-camera``: follows a pipe that it sees with a camera, at an altitude that it measures.
+"""``pipe-camera`` and ``pipe-camera-p``: follow a pipe that they see with a camera.
 
 `line_detector` finds the pipe in each image, and the law of `guidance` follows it. Without a line
 in the image, as over a buried stretch, the vehicle moves straight on. The altitude is that of a
@@ -114,3 +114,10 @@ class PipeCamera(ParametricAlgorithm):
         error = np.array([-line.slope * offset / square, offset / square, rise])
         target = np.array([AHEAD_DISTANCE, offset + line.slope * AHEAD_DISTANCE, 0.0])
         return self._guidance.command(error, direction, target, dt)
+
+
+class PipeCameraProportional(PipeCamera):
+    """``pipe-camera`` without integral action: a current shifts the vehicle off the pipe."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {**PipeCamera.PARAMETERS, "ki": 0.0}
+    """The parameters of `PipeCamera`, with ``ki`` 0."""
