@@ -32,7 +32,7 @@ def blind(algorithm: str, out: Path) -> dict[str, float]:
     """Play the clear level without drawing anything; returns the measures."""
     plan = replace(plan_of(algorithm, [("fog", 0.0)]), is_blind=True)
     [row] = [row for row in execute(plan, plan.trials()[0]) if isinstance(row, LevelRow)]
-    assert row.status == "ok"
+    assert row.status == "missed"  # the corners are not within 5 px
     return {name: value for name, (value, _) in row.measures.items() if value is not None}
 
 
