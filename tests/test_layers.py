@@ -32,6 +32,7 @@ GROUND = {
 }
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
 PARTS = BASE | {
+    "bathymetry",
     "currents",
     "waves",
     "particles",
@@ -60,6 +61,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "vehicle": BASE,
     "statistics": GROUND | {"statistics"},
     "middleware": BASE | {"middleware"},
+    "bathymetry": GROUND | {"bathymetry"},
     "currents": BASE | {"currents"},
     "waves": BASE | {"currents", "waves"},
     "particles": BASE | {"particles"},

@@ -19,6 +19,7 @@ from ..assets.netting import weave_net
 from ..assets.weathering import weather_model
 from ..base.geometry import Pose
 from ..base.numerics.linear import product
+from ..bathymetry.height_grid import HeightGrid
 from ..devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec
 from ..devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from ..devices.led_array import COLOURS, LedArraySpec
@@ -28,6 +29,8 @@ from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import VisualSpec
 from ..scene.vehicle import VehicleSpec
 from .resolved_scene import ResolvedScene
+from .terrain import height_grid, object_from_world
+from .terrain_model import terrain_model
 
 CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
 MIN_EDGE = 1e-4
@@ -55,6 +58,8 @@ class Part:
     scale of the mesh or object, but not the scale of the vehicle."""
     is_hidden: bool
     """True if the part is a ghost (``<vr>``): visible in the viewer, but not to virtual cameras."""
+    grid: HeightGrid | None = None
+    """The chart of the sea floor in W, of which the model may be a coarse mesh; None: a mesh."""
 
 
 def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
@@ -93,12 +98,18 @@ def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
                 parts += leds
     for index, spec in enumerate(scene.objects):
         number += 1
-        model, object_from_mesh = placed_model(scene, spec, load(spec.file))
+        grid = height_grid(scene, spec, data_path)
+        if grid is None:
+            model, object_from_mesh = placed_model(scene, spec, load(spec.file))
+        else:
+            model = terrain_model(grid, spec.file)
+            object_from_mesh = object_from_world(scene, spec)
         parts.append(
             Part(
                 id=number,
                 name=spec.name,
                 model=_weathered_model(model, spec),
+                grid=grid,
                 vehicle=None,
                 link="",
                 object=index,

@@ -28,6 +28,7 @@ from .body_names import object_body
 from .collision.ground import Ground, triangles_of
 from .collision.scene_shapes import collision_shapes, fixed_faces
 from .resolved_scene import ResolvedScene
+from .terrain import height_grids
 
 GROUND_SPACING, SMOOTHING = 0.2, 2.0
 """The distance of points of a course on the ground [m], and the length over which its height is the
@@ -74,11 +75,15 @@ def set_on_floor(resolved_scene: ResolvedScene) -> SceneSpec:
 
 
 def ground_faces(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Array]:
-    """Return the triangles of the ground in W, (n, 3, 3) [m], by the index of their object."""
+    """Return the triangles of the ground in W, (n, 3, 3) [m], by the index of their object.
+
+    Charts of the sea floor are left out: see `uwsim.model.terrain.height_grids`.
+    """
     faces = {}
     for i, spec in enumerate(scene.objects):
         is_fixed = spec.has_contacts(in_water=True) and not spec.solid.is_loose
-        if spec.on_floor is None and (is_fixed or spec.is_ground):
+        is_placed = spec.on_floor is None and spec.bathymetry is None
+        if is_placed and (is_fixed or spec.is_ground):
             faces[i] = fixed_faces(scene, i, spec.solid, data_path)
     return faces
 
@@ -94,7 +99,12 @@ class Floor:
         self._resolved_scene, self._scene = resolved_scene, resolved_scene.scene
         self.faces = ground_faces(resolved_scene.scene, resolved_scene.data_path)
         """The triangles of each object that is ground, in W, (n, 3, 3) [m], by object index."""
-        self.ground = Ground(np.concatenate([np.zeros((0, 3, 3)), *self.faces.values()]))
+        self.grids = height_grids(resolved_scene.scene, resolved_scene.data_path)
+        """The charts of the sea floor in W, by object index."""
+        self.ground = Ground(
+            np.concatenate([np.zeros((0, 3, 3)), *self.faces.values()]),
+            tuple(self.grids.values()),
+        )
         """The surface of all these objects together."""
 
     def body_of_vehicle(self, index: int, world_from_base: Pose) -> Array:

@@ -13,6 +13,7 @@ from ..base.numerics.linear import determinant, product, transform_points
 from ..rays import RayScene, Surface
 from ..scene.spec import SceneSpec
 from .parts import Part
+from .terrain import height_rays
 
 Owner = tuple[int | None, str, int | None]
 """The vehicle index and the link of a body, or None, an empty text and the object index."""
@@ -32,9 +33,10 @@ class RayBodies:
     def __init__(
         self, scene: SceneSpec, parts: Sequence[Part], fixed_poses: Mapping[int, Pose]
     ) -> None:
-        self._parts = [part for part in parts if not part.is_hidden]
+        self._parts = [part for part in parts if not part.is_hidden and part.grid is None]
+        self._charts = [(part.id, part.grid) for part in parts if part.grid is not None]
         self._fixed_poses = fixed_poses
-        names = {part.id: _material(scene, part) for part in self._parts}
+        names = {part.id: _material(scene, part) for part in parts if not part.is_hidden}
         owners = {
             p.id: scene.vehicles[p.vehicle].name for p in self._parts if p.vehicle is not None
         }
@@ -53,13 +55,14 @@ class RayBodies:
 
     @cached_property
     def scene(self) -> RayScene:
-        """The fixed surfaces in W as the first body; then each moving body, in its own frame."""
+        """The charts, the fixed surfaces in W as the first body, each moving body in its frame."""
         fixed: list[Surface] = []
         for part in self._parts:
             world_from_object = None if part.object is None else self._fixed_poses.get(part.object)
             if world_from_object is not None:
                 fixed += _surfaces(part, product(world_from_object.matrix, part.frame_from_mesh))
-        return RayScene([fixed, *self._moving_surfaces.values()])
+        grids = [height_rays(grid, number) for number, grid in self._charts]
+        return RayScene([fixed, *self._moving_surfaces.values()], grids)
 
     @cached_property
     def _moving_surfaces(self) -> dict[Owner, list[Surface]]:

@@ -14,6 +14,7 @@ from ..base.geometry import Array, Pose
 from ..base.numerics.linear import inverse, product
 from .bodies import NO_ENGINE_FRAMES, EngineFrames, make_bodies, update_all_frames
 from .cover import Balls, covering_balls
+from .height_rays import HeightRays
 from .kernel import Hits
 from .scene_record import cast_all, rays_record, scene_record
 from .tree import build_tree
@@ -33,13 +34,20 @@ class Surface:
 
 
 class RayScene:
-    """A scene for ray casting, in which rays hit triangles from outside.
+    """A scene for ray casting, in which rays hit triangles from outside and grids from above.
 
     Args:
         bodies: the surfaces of each body, in the body's frame. All initial poses are the identity.
+        grids: the fixed height grids.
     """
 
-    def __init__(self, bodies: Sequence[Sequence[Surface]]) -> None:
+    def __init__(
+        self, bodies: Sequence[Sequence[Surface]], grids: Sequence[HeightRays] = ()
+    ) -> None:
+        self._grids = tuple(grids)
+        records = [grid.record for grid in grids]
+        self.grid_records = np.concatenate(records) if records else None
+        """The records of the height grids for compiled code, (n,); None without grids."""
         trees = [_make_tree(surfaces) for surfaces in bodies]
         nodes = np.cumsum([0, *(len(tree.boxes) for tree in trees)])
         triangle_starts = np.cumsum([0, *(len(tree.triangles) for tree in trees)])
@@ -97,7 +105,7 @@ class RayScene:
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:
         """The functions for compiled code, a record of `scene_record.RAYS`, (1,)."""
-        return rays_record(self.record)
+        return rays_record(self.record, self.grid_records)
 
     @property
     def is_compiled(self) -> bool:

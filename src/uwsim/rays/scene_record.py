@@ -16,11 +16,20 @@ from ..base.numerics.calls import address_of, call, function_address
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer
 from .bodies import Bodies, EngineFrames
+from .height_rays import GRID, cast_on_grid
 from .kernel import Hits, cast_rays
 from .triangle import Trees
 
-RAYS = np.dtype([("cast", np.int64), ("scenes", np.int64), ("n_scenes", np.int64)])
-"""The addresses of the function that casts rays and of records of `SCENE`, and their number."""
+RAYS = np.dtype(
+    [
+        ("cast", np.int64),  # the address of the function that casts rays
+        ("scenes", np.int64),  # the address of records of `SCENE`, and their number
+        ("n_scenes", np.int64),
+        ("grids", np.int64),  # the address of records of `height_rays.GRID`, and their number
+        ("n_grids", np.int64),
+    ]
+)
+"""The function that casts rays, and the scenes and height grids that they can hit."""
 
 _ARRAYS = {
     "tree_boxes": ("n_tree_nodes", 12),
@@ -58,6 +67,8 @@ REQUEST = np.dtype(
         ("normal", np.int64),
         ("surface", np.int64),
         ("n_scenes", np.int64),
+        ("grids", np.int64),  # the address of the height grids, and their number
+        ("n_grids", np.int64),
     ]
 )
 """The rays to cast, and the addresses of the arrays that receive their hits."""
@@ -76,11 +87,20 @@ def scene_record(trees: Trees, bodies: Bodies, engine_frames: EngineFrames) -> n
     return record
 
 
-def rays_record(scenes: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
-    """Return a record of `RAYS`, (1,), for records of `SCENE`, which must outlive it."""
+def rays_record(
+    scenes: npt.NDArray[np.void], grids: npt.NDArray[np.void] | None = None
+) -> npt.NDArray[np.void]:
+    """Return a record of `RAYS`, (1,).
+
+    Args:
+        scenes: the records of `SCENE`, (n,), which must outlive it.
+        grids: the records of `height_rays.GRID`, (m,), which must outlive it; None: no grids.
+    """
     record = np.zeros(1, RAYS)
     record["cast"] = function_address(cast_request)
     record["scenes"], record["n_scenes"] = address_of(scenes), len(scenes)
+    if grids is not None and len(grids):
+        record["grids"], record["n_grids"] = address_of(grids), len(grids)
     return record
 
 
@@ -106,6 +126,7 @@ def cast_from(
     request.directions, request.starts = directions.ctypes.data, starts.ctypes.data
     request.distance, request.normal = hits.distance.ctypes.data, hits.normal.ctypes.data
     request.surface, request.n_scenes = hits.surface.ctypes.data, rays.n_scenes
+    request.grids, request.n_grids = rays.grids, rays.n_grids
     call(rays.cast, rays.scenes, requests.ctypes.data, 0.0)
 
 
@@ -131,6 +152,10 @@ def cast_request(scenes_address: int, request_address: int, time: float) -> None
     origin, reach = request.origin, request.reach
     scenes = carray(pointer(scenes_address), (request.n_scenes,), SCENE)
     cast_in(scenes[0], origin, directions, starts, reach, hits)
+    if request.n_grids > 0:
+        grids = carray(pointer(request.grids), (request.n_grids,), GRID)
+        for index in range(request.n_grids):
+            cast_on_grid(grids[index], origin, directions, starts, reach, hits)
     if request.n_scenes == 1:
         return
     scene_hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, np.int32))

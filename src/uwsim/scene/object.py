@@ -13,6 +13,7 @@ from ..acoustics import MaterialName
 from ..base.geometry import UNIT_SCALE, ZERO, Array, Pose, Triple, rotation_from_xyz
 from ..base.numerics.linear import product
 from ..base.numerics.polyline import round_corners
+from ..bathymetry.bathymetry import BathymetrySpec
 from ..schema import CLAMPED_NUMBER, MAX_DISTANCE, REQUIRED_BY_DTD, Numbers, Spec, element
 from .accepted_warnings import ObjectWarning
 from .on_floor import OnFloorSpec
@@ -358,6 +359,8 @@ class ObjectSpec(Spec):
     piece."""
     dock: DockSpec | None = element(namespaced=True, default=None)
     """The dimensions of a dock that the mesh gets; without it the mesh keeps its shape."""
+    bathymetry: BathymetrySpec | None = element(namespaced=True, default=None)
+    """The treatment of a file that is a chart of the sea floor; without it the file is a mesh."""
     acoustic_material: MaterialName | None = element(namespaced=True, default=None)
     """The material for sonars; without it an object called `terrain` is sand, others are steel."""
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)
@@ -392,8 +395,28 @@ class ObjectSpec(Spec):
 
     @property
     def is_ground(self) -> bool:
-        """True if the object is called ``terrain``."""
-        return self.name == TERRAIN
+        """True if the object is called ``terrain``, or is a chart of the sea floor."""
+        return self.name == TERRAIN or self.bathymetry is not None
+
+    def chart_errors(self) -> Iterator[str]:
+        """Yield errors of a chart of the sea floor, and of elements that it excludes."""
+        if self.bathymetry is None:
+            return
+        yield from self.bathymetry.errors()
+        exclusions = {
+            "<orientation>": any(self.orientation),
+            "<scaleFactor>": self.scale_factor != UNIT_SCALE,
+            "<offsetp>": any(self.offsetp),
+            "<offsetr>": any(self.offsetr),
+            "<u:onFloor>": self.on_floor is not None,
+            "<u:course>": self.course is not None,
+            "<u:net>": self.net is not None,
+            "<u:dock>": self.dock is not None,
+            "a <physics> with a mass": self.physics is not None and self.physics.is_loose,
+        }
+        for name, is_present in exclusions.items():
+            if is_present:
+                yield f"{name} does not apply to a <u:bathymetry>; remove it"
 
     def has_contacts(self, *, in_water: bool) -> bool:
         """Return whether the object has contacts.

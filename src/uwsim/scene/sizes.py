@@ -46,6 +46,8 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             diagnostics.error(item.net, "<u:net> and <u:course> are both given; remove one of them")
         if item.course is not None and item.dock is not None:
             diagnostics.error(item.dock, "an object has a <u:course> or a <u:dock>, not both")
+        for error in item.chart_errors():
+            diagnostics.error(item.bathymetry, error)
     n_total = 0
     for image in _cameras(scene):
         if error := find_size_error(image.resw, image.resh, ocean.water):

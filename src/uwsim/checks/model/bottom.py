@@ -15,6 +15,7 @@ import numpy as np
 
 from ...errors import Diagnostic, UwsimError
 from ...model.placement import ground_faces
+from ...model.terrain import height_grids, height_rays
 from ...rays import RayScene, Surface
 from ...scene.accepted_warnings import acceptance_hint
 from ...scene.mounts import MountFrames
@@ -60,7 +61,11 @@ class Bottom:
     def __init__(self, scene: SceneSpec, data_path: tuple[Path, ...]) -> None:
         self._scene = scene
         faces = ground_faces(scene, data_path)
-        self._rays = RayScene([[Surface(index, part, True) for index, part in faces.items()]])
+        grids = height_grids(scene, data_path).items()
+        self._rays = RayScene(
+            [[Surface(index, part, True) for index, part in faces.items()]],
+            [height_rays(grid, index) for index, grid in grids],
+        )
 
     def describe_miss(self, spec: DvlSensorSpec, index: int, robot: RobotSpec) -> str:
         """Describe why a DVL does not detect the seabed at the start; empty if it does.

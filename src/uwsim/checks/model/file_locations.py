@@ -40,7 +40,8 @@ def file_locations(scene: CheckedScene) -> list[Diagnostic]:
 def _models(scene: CheckedScene) -> Iterator[tuple[Spec, str, Path | None]]:
     """Yield, for every model, the element that names it, its name, and the file of the element."""
     for spec in scene.spec.objects:
-        yield spec, spec.file, scene.file_search["named_by"]
+        if spec.bathymetry is None:
+            yield spec, spec.file, scene.file_search["named_by"]
     for robot in scene.robots.values():
         for link in robot.links:
             for shape in (*link.visuals, *link.collisions):

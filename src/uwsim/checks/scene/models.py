@@ -8,8 +8,10 @@ from collections.abc import Iterator
 from ... import assets
 from ...assets.packages import strip_file_scheme
 from ...devices.structured_light_projector import StructuredLightProjectorSpec
-from ...errors import AssetError, Diagnostic
+from ...errors import AssetError, Diagnostic, UwsimError
 from ...model.parts import comms_devices
+from ...model.terrain import height_grid
+from ...scene.object import ObjectSpec
 from ..robot_search import MAX_FILES
 from ..subjects import CheckedScene
 
@@ -21,6 +23,9 @@ def model_files(scene: CheckedScene) -> Iterator[Diagnostic]:
         if device.mesh is not None:
             specs.setdefault(device.mesh.path, device.mesh)
     for object_spec in scene.spec.objects:
+        if object_spec.bathymetry is not None:
+            yield from _chart_errors(scene, object_spec)
+            continue
         specs.setdefault(object_spec.file, object_spec)
         if object_spec.physics is not None and object_spec.physics.collision_shape:
             specs.setdefault(object_spec.physics.collision_shape, object_spec)
@@ -34,6 +39,14 @@ def model_files(scene: CheckedScene) -> Iterator[Diagnostic]:
             yield scene.warning(spec, remark)
         for text in assets.model_remarks(name, **scene.file_search):
             yield scene.warning(spec, text)
+
+
+def _chart_errors(scene: CheckedScene, spec: ObjectSpec) -> Iterator[Diagnostic]:
+    """Report a chart of the sea floor that is not found, or does not fit the scene."""
+    try:
+        height_grid(scene.spec, spec, scene.data_path)
+    except UwsimError as error:
+        yield scene.error(spec, str(error).removesuffix("."), "file")
 
 
 def projectors(scene: CheckedScene) -> Iterator[Diagnostic]:

@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import length, product, pseudo_inverse, rank
+from ...bathymetry.height_grid import HeightGrid
 from .shapes import CollisionShape
 
 MIN_UPWARD_PART = 1e-6
@@ -43,9 +44,11 @@ class Ground:
 
     Args:
         triangles: the triangles in W, corners counter-clockwise seen from outside, (n, 3, 3) [m].
+        grids: charts of the sea floor in W, of which only the cells at a point or body are read.
     """
 
-    def __init__(self, triangles: Array) -> None:
+    def __init__(self, triangles: Array, grids: Sequence[HeightGrid] = ()) -> None:
+        self._grids = tuple(grids)
         a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
         self._double_areas: Array = _cross(b[:, :2] - a[:, :2], c[:, :2] - a[:, :2])  # (n,) [m2]
         areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
@@ -56,7 +59,18 @@ class Ground:
         self._high = self._triangles.max(axis=1)
 
     def __len__(self) -> int:
-        return len(self._triangles)
+        return len(self._triangles) + sum(grid.heights.size for grid in self._grids)
+
+    def _part_near(self, low: Array, high: Array) -> Ground:
+        """Return the ground with the triangles of charts in a rectangle in x and y."""
+        if not self._grids:
+            return self
+        parts = [self._triangles]
+        for grid in self._grids:
+            window = grid.window(low, high)
+            if window is not None:
+                parts.append(grid.part(*window).triangles())
+        return Ground(np.concatenate(parts))
 
     def height_at(self, point: Array) -> float | None:
         """Return z of the ground in W at a point's x and y [m]; None if there is no ground.
@@ -64,7 +78,7 @@ class Ground:
         For a point below ground it is the surface above the point; otherwise it is the next surface
         below the point, or the lowest surface if all are above.
         """
-        heights, faces_up = self._column(point[0], point[1])
+        heights, faces_up = self._part_near(point, point)._column(point[0], point[1])
         floors = heights[faces_up]
         if not len(floors):
             return None
@@ -78,7 +92,7 @@ class Ground:
 
     def covers(self, point: Array) -> bool:
         """Return whether a point in W (3,) is below ground: the next face above it faces up."""
-        heights, faces_up = self._column(point[0], point[1])
+        heights, faces_up = self._part_near(point, point)._column(point[0], point[1])
         faces_above = np.flatnonzero(heights > point[2])
         return bool(len(faces_above) and faces_up[faces_above[np.argmin(heights[faces_above])]])
 
@@ -88,7 +102,8 @@ class Ground:
         Args:
             body: the triangles of the body in W, (k, 3, 3) [m].
         """
-        faces = self._faces_under(body)
+        ground = self._part_near(body.min(axis=(0, 1)), body.max(axis=(0, 1)))
+        faces = ground._faces_under(body)
         if faces is None:
             return None
         triangles, double_areas = faces
@@ -111,7 +126,8 @@ class Ground:
             body: the triangles of the body in W, (k, 3, 3) [m].
         """
         up = np.array([0.0, 0.0, 1.0])
-        faces = self._faces_under(body)
+        ground = self._part_near(body.min(axis=(0, 1)), body.max(axis=(0, 1)))
+        faces = ground._faces_under(body)
         if faces is None:
             return up
         low, high = body.min(axis=(0, 1)), body.max(axis=(0, 1))

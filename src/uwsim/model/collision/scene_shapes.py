@@ -30,6 +30,7 @@ from ...scene.vehicle import VehicleSpec
 from ..body_names import object_body, vehicle_body
 from ..parts import object_models, placed_model, visual_model
 from ..resolved_scene import ResolvedScene
+from ..terrain import height_grid
 from .fixed_mesh import FixedMesh
 from .ground import triangles_of
 from .shapes import (
@@ -40,6 +41,7 @@ from .shapes import (
     orient_upwards,
     shapes_of,
 )
+from .terrain_shapes import terrain_shapes
 
 
 def engine_shapes(
@@ -84,6 +86,10 @@ def collision_shapes(
     load = object_models(scene, data_path)
     for index, physics in objects.items():
         spec = scene.objects[index]
+        if (grid := height_grid(scene, spec, data_path)) is not None:
+            world_from_object = scene.world_from_localized @ spec.localized_from_object
+            shapes[object_body(index)] = terrain_shapes(grid, world_from_object.inverse())
+            continue
         model, object_from_mesh = _contact_model(scene, spec, physics, load)
         shapes[object_body(index)] = shapes_of(
             model,
@@ -160,7 +166,7 @@ def _shapes_of_solid(
 def fixed_faces(
     scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
 ) -> Array:
-    """Return the collision triangles of a fixed object in W, (n, 3, 3) [m].
+    """Return the collision triangles of a fixed object that is no chart in W, (n, 3, 3) [m].
 
     Args:
         scene: the spec of the scene.
@@ -193,6 +199,8 @@ def fixed_box(
 ) -> Array:
     """Return the lower and upper corner of a fixed object's bounding box in W, (2, 3) [m]."""
     spec = scene.objects[index]
+    if (grid := height_grid(scene, spec, data_path)) is not None:
+        return grid.corners()
     load = object_models(scene, data_path)
     model, object_from_mesh = _contact_model(scene, spec, physics, load)
     world_from_object = scene.world_from_localized @ spec.localized_from_object
@@ -206,15 +214,17 @@ def contact_mesh(
 ) -> FixedMesh | None:
     """Return the collision surface of an object in its frame; None if it is no fixed trimesh.
 
+    A chart of the sea floor is none.
+
     Args:
         scene: the spec of the scene.
         index: the index of the object.
         physics: the physics of the object.
         data_path: the folders that are searched for files.
     """
-    if physics.is_loose or physics.collision_shape_type not in TRIMESHES:
-        return None
     spec = scene.objects[index]
+    if physics.is_loose or physics.collision_shape_type not in TRIMESHES or spec.bathymetry:
+        return None
     load = object_models(scene, data_path)
     model, object_from_mesh = _contact_model(scene, spec, physics, load)
     up = _vertical_axis(spec, scene) if spec.is_ground else None

@@ -21,6 +21,7 @@ import numpy as np
 from ...base.geometry import Array
 from ...scene.spec import SceneSpec
 from ..body_names import object_body
+from ..terrain import height_grid
 from .ground import MIN_UPWARD_PART, Ground
 from .scene_shapes import fixed_box, fixed_faces
 from .shapes import PLATE_THICKNESS, TRIMESHES
@@ -46,6 +47,7 @@ class SolidGround:
         """The name of the object."""
         self._is_terrain = spec.is_ground
         self._find_faces = partial(fixed_faces, scene, index, spec.solid, data_path)
+        self._grid = height_grid(scene, spec, data_path)
         self._low, self._high = fixed_box(scene, index, spec.solid, data_path)  # in W [m]
 
     @property
@@ -108,6 +110,8 @@ class SolidGround:
     @cached_property
     def _ground(self) -> Ground | None:
         """The surface; None if a body can get below it in another way than through or around it."""
+        if self._grid is not None:
+            return Ground(np.zeros((0, 3, 3)), [self._grid])
         is_solid = self._is_terrain or self._is_sheet or is_closed(self._faces)
         return Ground(self._faces) if is_solid and len(self._faces) else None
 

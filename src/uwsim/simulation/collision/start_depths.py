@@ -56,6 +56,8 @@ class StartDepths:
         self._grounds = {
             scene.objects[index].name: Ground(faces) for index, faces in self.floor.faces.items()
         }
+        for index, grid in self.floor.grids.items():
+            self._grounds[scene.objects[index].name] = Ground(np.zeros((0, 3, 3)), [grid])
 
     def vehicle_depth(self, index: int) -> StartDepth | None:
         """Return the start depth of a vehicle; None if it is above the ground or has no shape."""

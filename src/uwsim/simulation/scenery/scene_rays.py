@@ -58,7 +58,7 @@ class SceneRays:
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:
         """The scene for compiled ray casting, a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
-        return rays_record(self._records)
+        return rays_record(self._records, self._bodies.scene.grid_records)
 
     def cast(
         self,
