@@ -100,20 +100,29 @@ class BathymetrySpec(Spec):
             raise AssetError(f"{path}: cannot be read ({error.strerror or error}).") from error
 
     def _build(self, path: Path, data: bytes, origin: Geodetic | None) -> HeightGrid:
-        chart = read_chart(path, data)
+        return self.fit(read_chart(path, data), str(path), origin)
+
+    def fit(self, chart: Chart, source: str, origin: Geodetic | None) -> HeightGrid:
+        """Return the height grid in W of a chart; see `read`.
+
+        Args:
+            chart: the chart.
+            source: its file, for errors.
+            origin: the position on Earth of the origin of W; None: the scene has none.
+        """
         if self.coordinates and chart.system.kind == "local":
             chart = chart.with_system(parse_system(self.coordinates))
-        _check_heights(chart, str(path))
+        _check_heights(chart, source)
         if self.positive == "down":
             chart = replace(chart, heights=-chart.heights)
         west, south, east, north = self.crop or (0.0,) * 4
         crop = (west, south, east, north) if self.crop else None
-        grid = resample(chart, str(path), origin, crop, self.spacing)
+        grid = resample(chart, source, origin, crop, self.spacing)
         n_holes = int(np.count_nonzero(np.isnan(grid.heights)))
         if not n_holes:
             return grid
         if self.holes == "refuse" or n_holes == grid.heights.size:
-            raise AssetError(_describe_holes(path, grid, n_holes))
+            raise AssetError(_describe_holes(source, grid, n_holes))
         return replace(grid, heights=fill_holes(grid.heights))
 
 
@@ -145,11 +154,11 @@ def _check_heights(chart: Chart, source: str) -> None:
         )
 
 
-def _describe_holes(path: Path, grid: HeightGrid, n_holes: int) -> str:
+def _describe_holes(source: str, grid: HeightGrid, n_holes: int) -> str:
     i, j = np.unravel_index(int(np.argmax(np.isnan(grid.heights))), grid.shape)
     x, y = grid.west + j * grid.spacing, grid.south + i * grid.spacing
     advice = "a smaller <u:crop>" if n_holes == grid.heights.size else "<u:holes>fill</u:holes>"
     return (
-        f"{path}: {n_holes} of {grid.heights.size} nodes have no height, the first at x {x:.6g}, "
+        f"{source}: {n_holes} of {grid.heights.size} nodes have no height, the first at x {x:.6g}, "
         f"y {y:.6g} m of the scene; expected heights everywhere, or {advice}."
     )

@@ -128,21 +128,16 @@ class Projection:
 
     Args:
         system: the coordinate system of the chart.
-        origin: the position on Earth of the origin of W; None: a scene without ``<nedOrigin>``.
+        origin: the position on Earth of the origin of W; None for a chart in local coordinates.
         source: the file of the chart, for errors.
 
     Raises:
-        AssetError: the chart is on Earth, and the scene is not; or its system is unknown.
+        AssetError: the system is unknown to pyproj.
         MissingExtra: pyproj is needed and not installed.
     """
 
     def __init__(self, system: CoordinateSystem, origin: Geodetic | None, source: str) -> None:
         self._system, self._origin = system, origin
-        if system.kind != "local" and origin is None:
-            raise AssetError(
-                f"{source}: has coordinates on Earth, {system.description}; expected a <nedOrigin> "
-                "in the scene, whose <lat> and <lon> are those of the origin."
-            )
         self._transformer = None if system.kind != "other" else _transformer(system, source)
 
     @property

@@ -40,6 +40,13 @@ def resample(
     Raises:
         AssetError: the limits are outside the chart, or the grid is too large.
     """
+    if origin is None and (middle := middle_of(chart, source)) is not None:
+        latitude, longitude = (math.degrees(a) for a in (middle.latitude, middle.longitude))
+        raise AssetError(
+            f"{source}: has coordinates on Earth, {chart.system.description}; expected the origin "
+            "of the scene, such as the middle of the chart: "
+            f"<nedOrigin> <lat>{latitude:.6f}</lat> <lon>{longitude:.6f}</lon> </nedOrigin>."
+        )
     projection = Projection(chart.system, origin, source)
     edges = _edges(chart, projection)
     chart_spacing = spacing_of(chart, projection)
@@ -175,3 +182,19 @@ def interpolate_linearly(
             if weight > 0.0:
                 total += weight * heights[i + row, j + column]
         row_values[n] = total
+
+
+def middle_of(chart: Chart, source: str) -> Geodetic | None:
+    """Return the position on Earth about which a chart has the least distortion.
+
+    It is the centre of its orthographic projection, else its middle; None for local coordinates.
+    """
+    if chart.system.kind == "local":
+        return None
+    if chart.system.centre is not None:
+        return chart.system.centre
+    rows, columns = chart.shape
+    any_origin = Geodetic(latitude=0.0, longitude=0.0)
+    return Projection(chart.system, any_origin, source).geodetic_centre(
+        chart.x + 0.5 * chart.step_x * (columns - 1), chart.y + 0.5 * chart.step_y * (rows - 1)
+    )

@@ -90,6 +90,15 @@ SUITE_COMMANDS: dict[str, Command] = {
 """The commands of ``uwsim suite``."""
 
 COMMANDS: dict[str, Command] = {
+    "bathymetry": Command(
+        module="charts.bathymetry",
+        function="bathymetry",
+        summary="Make a synthetic sea floor, or describe, convert, draw a chart.",
+        examples=(
+            "uwsim bathymetry --rocks 5 --channels 1 --picture bay.png -o bay.tif",
+            "uwsim bathymetry gebco.nc --picture gebco.png",
+        ),
+    ),
     "bench": Command(
         module="bench",
         function="bench",

@@ -21,6 +21,7 @@ HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 FIRST_OPTIONS = "Common options"
 INPUT = "Input"
 RUN = "Repeats and processes"
+RELIEF = "Relief of a new floor"
 SEARCH = "Search"
 COMPARISON = "Comparison"
 AUTOPILOTS = "Autopilots"
@@ -38,6 +39,7 @@ OTHER_OPTIONS = "Options"
 GROUP_ORDER = (
     FIRST_OPTIONS,
     INPUT,
+    RELIEF,
     COMPARISON,
     SEARCH,
     RUN,

@@ -1,0 +1,1 @@
+"""Commands about charts of the sea floor."""
