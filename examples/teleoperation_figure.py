@@ -50,7 +50,7 @@ def main() -> None:
         axes.set_ylabel("east [m]")
         axes.set_ylim(POOL_WIDTH / 2, -POOL_WIDTH / 2)  # as seen from above
         axes.set_aspect("equal", adjustable="box")
-        axes.legend(loc="lower center", fontsize=7)
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, fontsize=7)
         save_plot(figure, options.file)
 
 

@@ -17,7 +17,7 @@ from .sensor_tables import TABLE
 SUITE = "intervention"
 DOCS = Path(__file__).parents[2] / "docs"
 HEADING = re.compile(r"^## ([\w-]+)$", re.MULTILINE)
-"""A heading of one word, as the name of a benchmark."""
+"""A heading of one word, as the name of a task without its version."""
 
 
 def fill_tables(page: str) -> str:
@@ -30,7 +30,7 @@ def task_table() -> str:
     tasks, sections = read_suite(find_suite(SUITE)).spec.tasks, find_sections()
     rows = [
         (
-            link_to_section(task.name, sections.get(task.benchmark)),
+            link_to_section(task.name, sections.get(task.name.rpartition("-v")[0])),
             task.description,
             f"`{task.benchmark}`",
             ", ".join(f"`{name}`" for name in task.baselines),
@@ -45,7 +45,7 @@ def task_table() -> str:
 
 
 def find_sections() -> dict[str, str]:
-    """Return the address of the section on each benchmark, by the benchmark's name.
+    """Return the address of the section on each task, by the task's name without its version.
 
     It is the section of a page ``docs/tasks-*.md`` whose heading is the name, in any case.
     """
