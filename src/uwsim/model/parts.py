@@ -17,6 +17,7 @@ from ..assets.dock_shape import DockShape, shape_dock
 from ..assets.mesh import Model
 from ..assets.netting import weave_net
 from ..assets.weathering import weather_model
+from ..base.files.input_files import record_inputs
 from ..base.geometry import Pose
 from ..base.numerics.linear import product
 from ..bathymetry.height_grid import HeightGrid
@@ -98,11 +99,12 @@ def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
                 parts += leds
     for index, spec in enumerate(scene.objects):
         number += 1
-        grid = height_grid(scene, spec, data_path)
+        with record_inputs() as files:
+            grid = height_grid(scene, spec, data_path)
         if grid is None:
             model, object_from_mesh = placed_model(scene, spec, load(spec.file))
         else:
-            model = terrain_model(grid, spec.file)
+            model = terrain_model(grid, spec.file, files)
             object_from_mesh = object_from_world(scene, spec)
         parts.append(
             Part(

@@ -7,12 +7,14 @@ so that parts of the grid fit together.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from ..assets.mesh import ArrayDigest, Mesh, Model, Texture
 from ..assets.procedural.sand_texture import make_sand_texture
+from ..base.files.input_files import InputFile
 from ..bathymetry.height_grid import HeightGrid, cell_triangles
 
 MAX_NODES = 260_000
@@ -30,11 +32,12 @@ def coarse_step(grid: HeightGrid) -> int:
     return max(1, math.ceil(math.sqrt(rows * columns / MAX_NODES)))
 
 
-def terrain_model(grid: HeightGrid, name: str) -> Model:
-    """Return the mesh of a whole chart in W."""
+def terrain_model(grid: HeightGrid, name: str, files: Sequence[InputFile] = ()) -> Model:
+    """Return the mesh of a whole chart in W, which was read from files."""
     rows, columns = (_indices(n, coarse_step(grid)) for n in grid.shape)
     mesh = grid_mesh(grid, rows, columns, make_sand_texture())
-    return Model(name=name, meshes=(mesh,), source="file", digest=ArrayDigest((mesh,)))
+    digest = ArrayDigest((mesh,))
+    return Model(name=name, meshes=(mesh,), source="file", digest=digest, files=tuple(files))
 
 
 def grid_mesh(

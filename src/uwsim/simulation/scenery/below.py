@@ -44,6 +44,11 @@ def surfaces_below(
     """
     heights: dict[str, float] = {}
     for part in parts:
+        if part.grid is not None:
+            height = part.grid.height_at(float(point[0]), float(point[1]))
+            if height is not None and height <= point[2]:
+                heights[part.name] = max(height, heights.get(part.name, height))
+            continue
         frame = scenery.world_from_mesh(part)
         for mesh in part.model.meshes:
             corners = product(mesh.vertices, frame[:3, :3].T) + frame[:3, 3]  # (n, 3) [m]

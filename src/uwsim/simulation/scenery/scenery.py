@@ -28,6 +28,7 @@ from ...rendering.physical.view import ViewContents
 from ...rendering.rendered_image import ImageModel, RenderedImage
 from ...rendering.smoothing import find_means
 from ...rendering.water import Light, Water
+from ..terrain.terrain_tiles import TerrainTiles
 from .camera_image import map_image, take_pixels
 from .heap_models import HeapModels
 from .light_sources import has_sun_shadows, make_lamp, make_projector
@@ -88,11 +89,12 @@ class Scenery:
         self._own_pool = RendererPool()
         self._pool = pool or self._own_pool
         self._renderer: Renderer | None = None
-        self._handles: list[int] = []  # the renderer's handle of each part
+        self._handles: list[int] = []  # the renderer's handle of each part that is a mesh
         self._drawn_version = -1
         self._vehicle_names = tuple(vehicle.name for vehicle in scene.vehicles)
         self.parts = model.parts
         """The visible parts of the scene: models of links and objects."""
+        self._tiles = TerrainTiles(self.parts)
         self._poses = PartPoses(self.parts, engine.poses)
         self._hidden_ids = frozenset(part.id for part in self.parts if part.is_hidden)
         self.mounted_lamps: tuple[MountedLamp | Led, ...] = ()
@@ -356,20 +358,22 @@ class Scenery:
         """
         renderer = self._open()
         if not self._handles:
-            self._handles = [renderer.add(part.model, part.id) for part in self.parts]
+            parts = [self.parts[i] for i in self._tiles.mesh_parts]
+            self._handles = [renderer.add(part.model, part.id) for part in parts]
         if self._drawn_version != self._engine.poses.version:
-            renderer.place_all(self._handles, self._poses.compute_all())
+            renderer.place_all(self._handles, self._poses.compute_all()[self._tiles.mesh_parts])
             if self.mounted_projector is not None:
                 self._projector = make_projector(*self.mounted_projector)
             self._drawn_version = self._engine.poses.version
         if displacement is not None:
             poses = self._poses.compute_displaced(displacement, self._vehicle_names)
-            renderer.place_all(self._handles, poses)
+            renderer.place_all(self._handles, poses[self._tiles.mesh_parts])
             self._drawn_version = -1  # the next image resets them
         self._heap_models.update(renderer)
         lens_image = None if intrinsics.lens is None else map_lens(intrinsics)
         lit_lamps = [lamp for lamp in self.mounted_lamps if lamp.is_on]
         pinhole = intrinsics if lens_image is None else lens_image.pinhole
+        self._tiles.update(renderer, world_from_camera, pinhole.far)
         particles = None
         if (
             self.particles is not None
@@ -437,5 +441,6 @@ class Scenery:
             self._renderer = None
             self._handles = []
             self._heap_models.forget()
+            self._tiles.forget()
             self._drawn_version = -1
         self._own_pool.close()

@@ -1,0 +1,1 @@
+"""The drawing of charts of the sea floor in a running scene."""
