@@ -48,13 +48,13 @@ def test_every_bundled_scene_can_be_shown_and_json_says_the_same(
 ) -> None:
     text, found = said(capsys, name), json.loads(said(capsys, name, "--json"))
     assert list(found) == [
-        "file", "frame", "water", "vehicles", "cameras", "sensors", "objects", "topics", "services",
-        "varies", "not_simulated", "warnings",
+        "file", "frame", "water", "vehicles", "cameras", "sensors", "objects", "tethers", "topics",
+        "services", "varies", "not_simulated", "warnings",
     ]  # fmt: skip
     assert found["vehicles"]
     assert found["objects"]
     assert bool(found["cameras"]) == ("<virtualCamera>" in Path(found["file"]).read_text())
-    for kind in ("vehicles", "cameras", "objects"):
+    for kind in ("vehicles", "cameras", "objects", "tethers"):
         assert all(each["name"] in text for each in found[kind])
     assert all(topic["topic"] in text for topic in found["topics"])
     assert found["vehicles"][0]["below"][-1]["name"] == "terrain"

@@ -138,6 +138,8 @@ COVERED = {
     ("search-scene", "top"): 0.004,
     ("teleoperation-scene", "orbit"): 0.001,
     ("teleoperation-scene", "top"): 0.001,
+    ("tether-scene", "orbit"): 0.003,
+    ("tether-scene", "top"): 0.0015,
     ("wreck-physical-scene", "top"): 0.003,
 }
 """The least shares of vehicles that are far away, or behind a pier, wreck, dock or net; else 1 %.

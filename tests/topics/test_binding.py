@@ -12,6 +12,7 @@ import pytest
 from tests.support.opened import open_scene
 from uwsim.base.record import NoState
 from uwsim.devices import DEVICES
+from uwsim.forces import FORCES
 from uwsim.messages import Float64
 from uwsim.scene.reader import read_scene
 from uwsim.scene.unsupported import describe_limitation
@@ -43,7 +44,8 @@ def test_what_has_no_bind_is_reported_as_read_only(name: str) -> None:
 def test_topics_are_fields_and_sources_are_elements(spec: type[InterfaceSpec]) -> None:
     fixed = {name for name, value in vars(spec).items() if isinstance(value, str)}
     assert set(spec.message_types()) <= {field.name for field in fields_of(spec)} | fixed
-    assert set(spec.sources) <= {*map(prefixed_name, {**SENSORS, **DEVICES}), "vehicle", "object"}
+    parts = {*map(prefixed_name, {**SENSORS, **DEVICES}), *(f"u:{name}" for name in FORCES)}
+    assert set(spec.sources) <= {*parts, "vehicle", "object"}
 
 
 def test_sensors_on_one_interface_measure_the_same() -> None:

@@ -28,7 +28,7 @@ from .location_remarks import describe_search, location_remark, package_remark, 
 from .mesh import Mesh, Model, Texture
 from .packages import PREFIXES, UWSIM_PACKAGE, environment_folders, package_folders, package_of
 from .paint import paint_model
-from .primitives import primitive
+from .primitives import primitive, rounded_cylinder
 from .stand_ins import BUNDLED_MODELS, STAND_INS, StandIn
 
 __all__ = [
@@ -52,6 +52,7 @@ __all__ = [
     "package_remark",
     "paint_model",
     "primitive",
+    "rounded_cylinder",
     "searched_folders",
     "unknown_model",
 ]

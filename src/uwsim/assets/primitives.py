@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
+
+import numpy as np
 
 from ..errors import AssetError
 from .mesh import Model
-from .procedural.shapes import box, cylinder, mesh, sphere
+from .procedural.shapes import box, cylinder, lathe, mesh, sphere
 
 N_NUMBERS = {"box": 3, "cylinder": 2, "sphere": 1}
 """The number of sizes of each kind."""
+N_SIDES, N_ROUND = 10, 2
+"""The numbers of sides, and of rings of each end, of a `rounded_cylinder`."""
 
 
 def primitive(
@@ -34,6 +39,24 @@ def primitive(
         )
     red, green, blue = (float(part) for part in colour[:3])
     return _make_primitive(kind, numbers, (red, green, blue))
+
+
+@cache
+def rounded_cylinder(radius: float, length: float, colour: tuple[float, float, float]) -> Model:
+    """Return a thin cylinder about z with hemispheres at its ends, centred on the origin.
+
+    Args:
+        radius: the radius [m].
+        length: the distance between the centres of the hemispheres [m].
+        colour: red, green, blue, 0..1.
+    """
+    angles = np.linspace(0.0, math.pi / 2.0, N_ROUND + 1)
+    rim = radius * np.cos(angles)
+    rim[-1] = 0.0  # the poles
+    rise = 0.5 * length + radius * np.sin(angles)
+    profile = np.concatenate([np.stack([rim, -rise], axis=1)[::-1], np.stack([rim, rise], axis=1)])
+    shape = lathe(profile, n=N_SIDES)
+    return Model(name="cylinder", meshes=(mesh(shape, colour=colour),), source="stand-in")
 
 
 @cache

@@ -95,6 +95,8 @@ def render_parts(content: Fields) -> Iterator[RenderableType]:
     yield from _table("cameras", map(_camera, content["cameras"]))
     yield from _table("sensors and lamps that point somewhere", map(_sensor, content["sensors"]))
     yield from _table("objects", map(_object, content["objects"]))
+    if content["tethers"]:
+        yield from _section("tethers", map(_tether, content["tethers"]))
     yield from _table("topics", map(_topic, content["topics"]))
     services = ", ".join(content["services"]) or "none of the scene's own"
     yield from _section(
@@ -110,6 +112,14 @@ def render_parts(content: Fields) -> Iterator[RenderableType]:
 def _variation(variation: Fields) -> str:
     unit = "" if variation["unit"] in ("", "1") else f" {variation['unit']}"
     return f"{variation['path']}: {variation['drawn_from']}{unit}"
+
+
+def _tether(tether: Fields) -> str:
+    ends = [end if isinstance(end, str) else f"{_format_numbers(end)} m" for end in tether["ends"]]
+    length = f"{tether['length']:g} m in {tether['segments']} segments"
+    winch = "" if tether["max_length"] is None else f", winch up to {tether['max_length']:g} m"
+    load = "" if tether["break_load"] is None else f", breaks at {tether['break_load']:g} N"
+    return f"{tether['name']}: from {ends[0]} to {ends[1]}, {length}{winch}{load}"
 
 
 def _section(title: str, lines: Iterable[str]) -> Iterator[RenderableType]:

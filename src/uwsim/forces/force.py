@@ -10,13 +10,27 @@ The order of the computations in a step:
 from __future__ import annotations
 
 import abc
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from ..base.geometry import Array
+from ..base.geometry import Array, Triple
 from ..base.record import NoState, Record
 from ..schema import Spec
 from ..world import Attachment, ForceWorld
+
+
+@dataclass(frozen=True)
+class DrawnSegments:
+    """The cylinders that show the body of a force, such as the segments of a tether."""
+
+    n: int
+    """The number of cylinders."""
+    length: float
+    """The length of each cylinder [m]."""
+    radius: float
+    """The radius of each cylinder [m]."""
+    colour: Triple
+    """The colour, red, green and blue [0..1]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +43,15 @@ class ForceSpec(Spec, abc.ABC):
 
     name: str
     """The name of the force, for messages."""
+
+    @property
+    def drawn_segments(self) -> DrawnSegments | None:
+        """The cylinders that show the force, which it places itself; None if it is invisible."""
+        return None
+
+    def errors(self) -> Iterator[str]:
+        """Yield errors of elements that contradict each other."""
+        return iter(())
 
     @abc.abstractmethod
     def bind(self, world: ForceWorld) -> Force:

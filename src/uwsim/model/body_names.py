@@ -43,6 +43,11 @@ def grip_constraint(vehicle: int, link: str, object_index: int) -> str:
     return f"grip/{vehicle}/{link}/{object_index}"
 
 
+def segment_body(force: int, segment: int) -> str:
+    """Return the name in the model of a segment that the force at index ``force`` places."""
+    return f"force/{force}/{segment}"
+
+
 def owner_of(name: str) -> str:
     """Return the owner, ``vehicle/1`` or ``object/1``, of the body or shape with a name."""
     return "/".join(name.split("/")[:2])

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..assets import load_model, paint_model, primitive, unknown_model
+from ..assets import load_model, paint_model, primitive, rounded_cylinder, unknown_model
 from ..assets.bending import BentLine, bend_model
 from ..assets.conventions import robot_scale, with_z_up
 from ..assets.dock_shape import DockShape, shape_dock
@@ -25,10 +25,12 @@ from ..devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec
 from ..devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from ..devices.led_array import COLOURS, LedArraySpec
 from ..errors import AssetNotFound
+from ..forces import DrawnSegments
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import VisualSpec
 from ..scene.vehicle import VehicleSpec
+from .body_names import segment_body
 from .resolved_scene import ResolvedScene
 from .terrain import height_grid, object_from_world
 from .terrain_model import terrain_model
@@ -36,6 +38,11 @@ from .terrain_model import terrain_model
 CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
 MIN_EDGE = 1e-4
 """The minimum edge of a box, cylinder or sphere, as some robot files have flat shapes [m]."""
+
+
+SEGMENT_OVERLAP = 1.005
+"""The length of the cylinder that shows a segment, in segments: a stretched tether has no gaps [1].
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,11 +56,11 @@ class Part:
     model: Model
     """The meshes and textures."""
     vehicle: int | None
-    """The index of the vehicle; None for an object."""
+    """The index of the vehicle; None for an object and for a segment of a force."""
     link: str
-    """The link of the vehicle; empty for an object."""
+    """The link of the vehicle; empty for an object; `segment_body` for a segment of a force."""
     object: int | None
-    """The index of the object; None for a link."""
+    """The index of the object; None for a link and for a segment of a force."""
     frame_from_mesh: npt.NDArray[np.float64]
     """The pose of the mesh frame in the frame of the link or object, (4, 4) [m]. It includes the
     scale of the mesh or object, but not the scale of the vehicle."""
@@ -119,7 +126,30 @@ def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
                 is_hidden=False,
             )
         )
+    for index, force in enumerate(scene.forces):
+        if force.drawn_segments is not None:
+            number += 1
+            parts += _segment_parts(number, index, force.name, force.drawn_segments)
     return parts
+
+
+def _segment_parts(number: int, index: int, name: str, segments: DrawnSegments) -> list[Part]:
+    """Return a cylinder along z with round ends for each segment that a force places."""
+    radius, length = segments.radius, SEGMENT_OVERLAP * segments.length
+    model = rounded_cylinder(radius, length, segments.colour)
+    return [
+        Part(
+            id=number,
+            name=name,
+            model=model,
+            vehicle=None,
+            link=segment_body(index, segment),
+            object=None,
+            frame_from_mesh=np.eye(4),
+            is_hidden=False,
+        )
+        for segment in range(segments.n)
+    ]
 
 
 def _led_parts(number: int, index: int, vehicle: VehicleSpec, array: LedArraySpec) -> list[Part]:

@@ -16,7 +16,8 @@ from .parts import Part
 from .terrain import height_rays
 
 Owner = tuple[int | None, str, int | None]
-"""The vehicle index and the link of a body, or None, an empty text and the object index."""
+"""The vehicle index and the link of a body; or None, an empty text and the object index; or None,
+the name of `segment_body` and None."""
 
 
 class RayBodies:
@@ -38,7 +39,9 @@ class RayBodies:
         self._fixed_poses = fixed_poses
         names = {part.id: _material(scene, part) for part in parts if not part.is_hidden}
         owners = {
-            p.id: scene.vehicles[p.vehicle].name for p in self._parts if p.vehicle is not None
+            p.id: p.name if p.vehicle is None else scene.vehicles[p.vehicle].name
+            for p in self._parts
+            if p.object is None
         }
         numbers = range(max(names, default=0) + 1)
         self.materials: tuple[Material, ...] = tuple(
@@ -46,7 +49,7 @@ class RayBodies:
         )
         """The acoustic material of each surface, by the surface's index."""
         self.vehicles = tuple(owners.get(number, "") for number in numbers)
-        """The name of the vehicle of each surface, by the surface's index; empty for an object."""
+        """The name of the vehicle or tether of each surface, by its index; empty for an object."""
 
     @property
     def moving_owners(self) -> tuple[Owner, ...]:
@@ -76,7 +79,7 @@ class RayBodies:
 
 def _material(scene: SceneSpec, part: Part) -> MaterialName:
     if part.object is None:
-        return "steel"
+        return "wood" if part.vehicle is None else "steel"  # a plastic sheath is as weak
     spec = scene.objects[part.object]
     return spec.acoustic_material or ("sand" if spec.is_ground else "steel")
 

@@ -32,6 +32,7 @@ from ..model.body_names import (
 from ..model.collision.shapes import CollisionShape
 from ..model.inertias import MIN_INERTIA, MIN_MASS
 from ..model.resolved_scene import SimulatedScene
+from ..model.segment_names import segment_names
 from ..scene.hydrodynamics import BodyHydrodynamics, FinSpec, ThrusterSpec, VehicleHydrodynamics
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
@@ -133,6 +134,7 @@ def _compile(inputs: SimulatedScene) -> mujoco.MjModel:
             _add_shapes(spec, spec.body(name), name, parts, Pose.identity())
             if name in loose_physics:
                 _set_surface(spec, name, parts, loose_physics[name])
+    _add_segments(spec, scene)
     if density is not None:
         hydrodynamics = {
             name: loose_hydrodynamics(name, physics, shapes[name], density)
@@ -299,6 +301,12 @@ def _add_children(
                     leader = vehicle_joint(index, joint.mimic.joint)
                     add_gear(spec, name, leader, joint, joint.mimic)
         _add_children(spec, child, robot, joint.child, index, links)
+
+
+def _add_segments(spec: mujoco.MjSpec, scene: SceneSpec) -> None:
+    """Add a body without weight and shape for each segment that a force places."""
+    for body, _ in segment_names(scene):
+        spec.worldbody.add_body(name=body, mocap=True)
 
 
 def _add_grips(spec: mujoco.MjSpec, inputs: SimulatedScene, objects: Collection[str]) -> None:

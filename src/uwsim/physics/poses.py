@@ -12,10 +12,11 @@ from ..base.geometry import Array, Pose
 from ..base.numerics.calls import address_of
 from ..base.numerics.linear import product, rotate, world_positions
 from ..base.record import Record
-from ..model.body_names import object_body, vehicle_body
+from ..model.body_names import object_body, segment_body, vehicle_body
 from ..model.scene_model import SceneModel
 from .kinematics.fixtures import Fixtures
 from .kinematics.link_kernel import MOUNT, compute_frame, scaled_axes
+from .kinematics.segments import SegmentBodies
 
 Mount = npt.NDArray[np.void]
 """A record of `link_kernel.MOUNT`, (1,)."""
@@ -64,6 +65,7 @@ class Poses:
         }
         names = {i: object_body(i) for i in range(len(scene.objects))}
         self._loose_bodies = {i: ids[name] for i, name in names.items() if name in ids}
+        self._segments = {name: body for name, body in ids.items() if name.startswith("force/")}
         self._initial_poses = scene_model.placed_objects
         self._fixed = scene_model.fixed_objects
         scales = {i: vehicle.scale_factor for i, vehicle in enumerate(scene.vehicles)}
@@ -96,18 +98,20 @@ class Poses:
         return self._links[index, link]
 
     def engine_body(self, vehicle: int | None, link: str, index: int | None) -> int:
-        """Return the engine's body with the frame of a link or an object; -1 without such a body.
+        """Return the engine's body with the frame of a part of the scene; -1 without such a body.
 
         A link of a scaled vehicle and an object that follows a link have none.
 
         Args:
-            vehicle: the index of the vehicle; None for an object.
-            link: the name of the link.
-            index: the index of the object; None without one.
+            vehicle: the index of the vehicle; None for an object or a segment.
+            link: the name of the link; or of a segment, as of `segment_body`.
+            index: the index of the object; None for a link or a segment.
         """
         if vehicle is not None:
             return -1 if vehicle in self._scales else self._links[vehicle, link]
-        if index is None or index in self._initial_poses or index in self.state.carriers:
+        if index is None:
+            return self._segments[link]
+        if index in self._initial_poses or index in self.state.carriers:
             return -1
         return self._loose_bodies[index]
 
@@ -160,6 +164,27 @@ class Poses:
         if index in self._initial_poses:
             return self.state.placed_poses.get(index, self._initial_poses[index]).copy()
         return self._body(self._loose_bodies[index])
+
+    def segment_body(self, name: str) -> int:
+        """Return the MuJoCo ID of a segment that a force places, by its name in the model."""
+        return self._segments[name]
+
+    def segments(self, force: int, n: int, length: float) -> SegmentBodies:
+        """Return the cylinders that show a force.
+
+        Args:
+            force: the index of the force in the scene.
+            n: the number of cylinders.
+            length: the length of a cylinder [m].
+        """
+        first = int(self._model.body_mocapid[self._segments[segment_body(force, 0)]])
+        rows = slice(first, first + n)
+        positions, quaternions = self._data.mocap_pos[rows], self._data.mocap_quat[rows]
+        return SegmentBodies(positions, quaternions, length, self.mark_stale)
+
+    def segment(self, name: str) -> Pose:
+        """Return ``world_from_segment`` of a segment that a force places."""
+        return self._body(self._segments[name])
 
     def place_object(self, index: int, world_from_object: Pose) -> None:
         """Set the pose of an object that is not a body of the engine."""

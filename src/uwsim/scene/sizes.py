@@ -34,6 +34,9 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         element = message.partition(">")[0].removeprefix("<")
         tag = element.replace("u:", f"{{{NAMESPACE}}}")
         diagnostics.error(line_of(ocean, tag), message)
+    for force in scene.forces:
+        for error in force.errors():
+            diagnostics.error(force, error)
     for item in scene.objects:
         for error in () if item.course is None else item.course.errors():
             diagnostics.error(item.course, error)

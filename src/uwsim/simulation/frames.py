@@ -7,6 +7,7 @@ from functools import partial
 
 from ..base.geometry import Pose
 from ..model.scene_model import SceneModel
+from ..model.segment_names import segment_names
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
 from ..topics.frames import Frame
@@ -23,9 +24,14 @@ def scene_frames(
     *,
     with_objects: bool,
 ) -> list[Frame]:
-    """List the frames of vehicles, links and sensors and, ``with_objects``, those of objects."""
+    """List the frames of vehicles, links and sensors.
+
+    With ``with_objects``, the frames of objects and of the segments of tethers are included.
+    """
     frames = [*_vehicle_frames(model, engine, vehicles)]
-    return [*frames, *_object_frames(model.scene, bodies)] if with_objects else frames
+    if not with_objects:
+        return frames
+    return [*frames, *_object_frames(model.scene, bodies), *_segment_frames(model.scene, engine)]
 
 
 def _vehicle_frames(model: SceneModel, engine: Engine, vehicles: SceneVehicles) -> Iterator[Frame]:
@@ -56,6 +62,14 @@ def _object_frames(scene: SceneSpec, bodies: SceneBodies) -> Iterator[Frame]:
     for name in dict.fromkeys(spec.name for spec in scene.objects):
         body = bodies.find(name)
         yield Frame("", name, _compose(localized_from_world, _frame_pose(body, Pose.identity())))
+
+
+def _segment_frames(scene: SceneSpec, engine: Engine) -> Iterator[Frame]:
+    """Yield the frames in L of the segments of tethers, ``tether/0``, ``tether/1`` ..."""
+    localized_from_world = scene.world_from_localized.inverse()
+    for body, name in segment_names(scene):
+        pose = _compose(localized_from_world, partial(engine.poses.segment, body))
+        yield Frame("", name, pose)
 
 
 def _frame_pose(body: Body, body_from_frame: Pose) -> Callable[[], Pose]:

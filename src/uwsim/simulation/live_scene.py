@@ -102,7 +102,7 @@ class LiveScene:
         self.bus.services.serve(SERVICE, SpawnMarker, self.markers.answer)
         self.trajectories = tuple(self._bind_trajectories())
         """The trajectories of ``<showTrajectory>`` elements."""
-        topics = TopicView(scene, self.sensors, self.markers, is_blind=is_blind)
+        topics = TopicView(scene, self.sensors, self.markers, self.forces, is_blind=is_blind)
         self.interfaces = tuple(_bind_interfaces(model.scene, topics))
         """The elements of ``<rosInterfaces>``, which publish and subscribe, in the file's order."""
         self.images = {

@@ -10,6 +10,8 @@ import numpy as np
 
 from ..base.geometry import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
 from ..model.parts import Part
+from ..model.ray_bodies import Owner
+from ..model.segment_names import segment_names
 from ..scene.urdf.robot import RobotSpec
 from .live_scene import LiveScene
 from .unique_names import make_unique
@@ -31,24 +33,31 @@ class TrackedBodies:
         ]
         self._loose_objects = [i for i in movable_ids if self._poses.loose_body(i) is not None]
         self._placed_objects = [i for i in movable_ids if i not in self._loose_objects]
+        segments = [body for body, _ in segment_names(world.model.scene)]
         self._numbers = np.array(
             [self._poses.link_body(*link) for link in links]
-            + [self._poses.loose_body(i) for i in self._loose_objects],
+            + [self._poses.loose_body(i) for i in self._loose_objects]
+            + [self._poses.segment_body(segment) for segment in segments],
             dtype=np.intp,
         )
-        objects = [*self._loose_objects, *self._placed_objects]
-        self._link_rows = {link: row for row, link in enumerate(links)}
-        self._object_rows = {i: len(links) + k for k, i in enumerate(objects)}
-        link_names, object_names = body_names(world)
-        self.names = (*(link_names[link] for link in links), *(object_names[i] for i in objects))
-        """The unique name of each body: ``vehicle/link``, or the name of an object."""
+        keys: list[Owner] = [
+            *((vehicle, link, None) for vehicle, link in links),
+            *((None, "", i) for i in self._loose_objects),
+            *((None, segment, None) for segment in segments),
+            *((None, "", i) for i in self._placed_objects),
+        ]
+        self._body_rows = {key: row for row, key in enumerate(keys)}
+        names = body_names(world)
+        self.names = tuple(names[key] for key in keys)
+        """The unique name of each body: ``vehicle/link``, the name of an object, or the name of a
+        tether and the number of a segment."""
 
     def body_number(self, part: Part) -> int | None:
         """Return the row of the body with which a visible part moves; None if the part is fixed."""
         if part.vehicle is not None:
-            return self._link_rows[part.vehicle, self._group_links[part.vehicle][part.link]]
-        assert part.object is not None
-        return self._object_rows.get(part.object)
+            leader = self._group_links[part.vehicle][part.link]
+            return self._body_rows[part.vehicle, leader, None]
+        return self._body_rows.get((None, part.link, part.object))
 
     def rows(self) -> Array:
         """Return the position in W [m] and the quaternion (wxyz) of each body, (n, 7)."""
@@ -58,8 +67,9 @@ class TrackedBodies:
         rows = np.concatenate([rows, np.zeros((len(self._placed_objects), 7))])
         for i in [*self._placed_objects, *self._poses.state.carriers]:
             pose = self._poses.object(i)
-            rows[self._object_rows[i], :3] = pose.position
-            rows[self._object_rows[i], 3:] = quaternion_from_rotation(pose.rotation)
+            row = rows[self._body_rows[None, "", i]]
+            row[:3] = pose.position
+            row[3:] = quaternion_from_rotation(pose.rotation)
         return rows
 
     def show(self, rows: Array) -> None:
@@ -75,19 +85,18 @@ def vehicle_labels(world: LiveScene) -> tuple[str, ...]:
     return make_unique(vehicle.name for vehicle in world.model.scene.vehicles)
 
 
-def body_names(world: LiveScene) -> tuple[dict[tuple[int, str], str], dict[int, str]]:
-    """Return unique names of bodies: by vehicle index and link, and by object index."""
-    labels, objects = vehicle_labels(world), world.model.scene.objects
+def body_names(world: LiveScene) -> dict[Owner, str]:
+    """Return unique names of the bodies: of links, objects and segments of forces."""
+    labels, scene = vehicle_labels(world), world.model.scene
     links = [
         (i, name)
         for i, robot in world.model.robots.items()
         for name in set(rigid_group_links(robot).values())
     ]
-    links.sort()
-    names = make_unique(
-        [*(f"{labels[i]}/{name}" for i, name in links), *(spec.name for spec in objects)]
-    )
-    return dict(zip(links, names, strict=False)), dict(enumerate(names[len(links) :]))
+    names: dict[Owner, str] = {(i, name, None): f"{labels[i]}/{name}" for i, name in sorted(links)}
+    names |= {(None, "", i): spec.name for i, spec in enumerate(scene.objects)}
+    names |= {(None, body, None): name for body, name in segment_names(scene)}
+    return dict(zip(names, make_unique(names.values()), strict=True))
 
 
 def rigid_group_links(robot: RobotSpec) -> dict[str, str]:

@@ -72,6 +72,7 @@ from .sensor_topic import (
 )
 from .simulated_device_ros import SimulatedDeviceROSSpec
 from .sonar_to_ros import SonarToROSSpec
+from .tethers import ROSToWinchSpec, TetherToROSSpec
 from .thruster_commands import ROSFinsToPATSpec, ROSThrustersToPATSpec, ROSWrenchToPATSpec
 from .viewer_topics import ROSImageToHUDSpec, ROSPointCloudLoaderSpec
 from .virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
@@ -113,6 +114,8 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     f"{{{NAMESPACE}}}batteryToROS": BatteryToROSSpec,
     f"{{{NAMESPACE}}}motorCurrentsToROS": MotorCurrentsToROSSpec,
     f"{{{NAMESPACE}}}sensorToROS": SensorToROSSpec,
+    f"{{{NAMESPACE}}}tetherToROS": TetherToROSSpec,
+    f"{{{NAMESPACE}}}ROSToWinch": ROSToWinchSpec,
 }
 """The specs of the elements, in the order of the original grammar; extensions are last."""
 

@@ -19,7 +19,7 @@ from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..vehicle import Vehicle
-from ..world import Body, Contact, TimedWorld
+from ..world import Body, Contact, TetherControl, TimedWorld
 from .frames import Frame
 
 M = TypeVar("M")
@@ -89,6 +89,9 @@ class TopicWorld(TimedWorld, Protocol):
     def vehicle(self, name: str) -> Vehicle:
         """Find a vehicle; raise UnknownName if there is none of that name."""
 
+    def tether(self, name: str) -> TetherControl:
+        """Find a tether; raise UnknownName if there is none of that name."""
+
     @property
     def sensors(self) -> TopicSensors:
         """The sensors and devices that publish."""
@@ -101,11 +104,11 @@ class TopicWorld(TimedWorld, Protocol):
     def segmenter(self) -> Segmenter:
         """The renderer of images whose pixels are segmentation IDs."""
 
-    def frames(self, *, with_objects: bool) -> Sequence[Frame]:
-        """List the frames of vehicles, their links and sensors, and ``with_objects`` of objects."""
+    def frames(self, *, with_objects: bool) -> Callable[[], Sequence[Frame]]:
+        """Return a function that lists the frames of vehicles, their links and sensors.
 
-    def marker_frames(self) -> Sequence[Frame]:
-        """List the frames of the markers that exist now."""
+        ``with_objects`` adds objects, segments of tethers, and the markers that exist then.
+        """
 
     def create_timer(
         self,

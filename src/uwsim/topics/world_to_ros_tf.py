@@ -18,7 +18,7 @@ scan is along +x, and its angles turn about +z.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
@@ -55,19 +55,23 @@ class WorldToROSTFSpec(InterfaceSpec):
 class FramePublisher(Interface):
     """A publisher of the transforms of frames."""
 
-    def __init__(self, spec: WorldToROSTFSpec, frames: Sequence[Frame], world: TopicWorld) -> None:
+    def __init__(
+        self,
+        spec: WorldToROSTFSpec,
+        frames: Callable[[], Sequence[Frame]],
+        world: TopicWorld,
+    ) -> None:
         self._spec, self._frames, self._world = spec, frames, world
         self._publish = world.bus.publisher(TF, TFMessage)
 
     def publish(self) -> None:
         """Publish all frames at their present pose."""
         time, root = self._world.time, self._spec.root_name
-        markers = self._world.marker_frames() if self._spec.enable_objects else ()
         self._publish(
             TFMessage(
                 transforms=[
                     transform(frame.parent or root, frame.child, frame.parent_from_child(), time)
-                    for frame in (*self._frames, *markers)
+                    for frame in self._frames()
                 ]
             )
         )

@@ -26,7 +26,7 @@ class Bodies:
     def __init__(self, world: LiveScene) -> None:
         self._world = world
         self._leaders = {i: rigid_group_links(robot) for i, robot in world.model.robots.items()}
-        self._link_names, self._object_names = body_names(world)
+        self._names = body_names(world)
         self.labels = vehicle_labels(world)
         """The unique names of the vehicles."""
         self.rows: list[Json] = []
@@ -38,7 +38,7 @@ class Bodies:
         """Return the name of the body to which a link belongs; add the body if it is new."""
         leader = self._leaders[index][link]
         pose = self._world.engine.poses.link(index, leader)
-        return self._body(self._link_names[index, leader], pose, self.labels[index])
+        return self._body(self._names[index, leader, None], pose, self.labels[index])
 
     def named_link(self, vehicle: str, link: str) -> str:
         """Return the name of the body of a link, of the first vehicle with that name."""
@@ -52,9 +52,9 @@ class Bodies:
         """Return the name of the body of a part of the scene; add the body if it is new."""
         if part.vehicle is not None:
             return self.link(part.vehicle, part.link)
-        assert part.object is not None
-        pose = self._world.engine.poses.object(part.object)
-        return self._body(self._object_names[part.object], pose, None)
+        poses = self._world.engine.poses
+        pose = poses.segment(part.link) if part.object is None else poses.object(part.object)
+        return self._body(self._names[None, part.link, part.object], pose, None)
 
     def add(self, part: Part, models: Models) -> None:
         """Add the visuals of a part of the scene to its body."""

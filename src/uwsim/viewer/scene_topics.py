@@ -22,6 +22,7 @@ from ..base.geometry import Array
 from ..messages import String, TFMessage
 from ..messages.build import transform
 from ..model.parts import Part
+from ..model.segment_names import segment_names
 from ..simulation import Simulation
 from ..simulation.frames import scene_frames
 from ..topics.frames import TF, Frame
@@ -123,7 +124,9 @@ class SceneTopics:
             world_from_link = poses.link(part.vehicle, part.link)
             name = f"{scene.vehicles[part.vehicle].name}/{part.link}"
             return name, world_from_link.inverse().matrix
-        assert part.object is not None
+        if part.object is None:
+            name = dict(segment_names(scene))[part.link]
+            return name, poses.segment(part.link).inverse().matrix
         if poses.is_fixed(part.object):
             return self._root, world.model.scene.world_from_localized.inverse().matrix
         name = scene.objects[part.object].name

@@ -271,7 +271,7 @@ class Rays(Protocol):
 
     @property
     def vehicles(self) -> Sequence[str]:
-        """The name of the vehicle to which each surface belongs, or empty, by index of surface."""
+        """The name of the vehicle or tether of each surface, or empty, by index of surface."""
 
     @property
     def materials(self) -> Sequence[Material]:
@@ -350,4 +350,56 @@ class Attachment(Protocol):
 
         The motion of a vehicle with dynamics or a loose object is that of the physics engine. A
         kinematic vehicle moves as in `MovingBody.motion`; another object is at rest.
+        """
+
+    def mass(self) -> npt.NDArray[np.float64] | None:
+        r"""Return the mass that a force at the frame's origin accelerates, in W, (3, 3) [kg].
+
+        It is :math:`(J M^{-1} J^T)^{-1}` with the mass matrix M of the last step, which includes
+        the added mass, and the Jacobian J of the origin. None for a body that forces do not move.
+        """
+
+
+class TetherControl(Protocol):
+    """A tether, for the topics that report it and command its winch."""
+
+    @property
+    def name(self) -> str:
+        """The name of the tether."""
+
+    @property
+    def length(self) -> float:
+        """The unstretched length that is paid out [m]."""
+
+    @property
+    def end_tensions(self) -> tuple[float, float]:
+        """The tensions at the first and at the last end [N]."""
+
+    @property
+    def winch_speed(self) -> float:
+        """The speed at which the winch pays out now [m/s]; 0 without a winch."""
+
+    @property
+    def has_winch(self) -> bool:
+        """True if the tether has a winch, whose speed can be set."""
+
+    def set_winch_speed(self, speed: float) -> None:
+        """Set the speed of the winch [m/s], positive to pay out; its limits apply."""
+
+    @property
+    def break_report(self) -> str | None:
+        """A sentence about the break of the tether; None before."""
+
+
+class Segments(Protocol):
+    """The cylinders that show the body of a force, such as a tether."""
+
+    def place(self, nodes: npt.NDArray[np.float64], broken_segment: int) -> None:
+        """Place the cylinders between successive nodes.
+
+        Those that are not needed lie within others.
+
+        Args:
+            nodes: the nodes in W, (n + 1, 3) [m], for at most as many segments as cylinders.
+            broken_segment: the index of a segment that is not shown; -1: none.
         """

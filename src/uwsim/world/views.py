@@ -30,6 +30,7 @@ from .parts import (
     ImageView,
     LineOfSight,
     Rays,
+    Segments,
     Surroundings,
     WaterSurface,
 )
@@ -354,6 +355,13 @@ class ForceWorld(Protocol):
                 (its mesh frame), as in `World.body`.
             position: the origin of the frame in the body, (3,) [m].
         """
+
+    def segments(self, name: str) -> Segments:
+        """Return the cylinders that show a force, by its name; see `ForceSpec.drawn_segments`."""
+
+    @property
+    def rays(self) -> Rays:
+        """The ray caster against the surfaces of the scene at their present poses."""
 
     def water_velocity(
         self, points: npt.NDArray[np.float64], time: float, vehicle: str

@@ -14,6 +14,7 @@ from itertools import chain
 from ...devices.force_sensor import ForceSensorSpec
 from ...devices.lamp import MAX_LAMPS, LampSpec
 from ...errors import Diagnostic
+from ...forces import FORCES
 from ...scene.angles import MAX_PLAUSIBLE_ANGLE
 from ...scene.object import ObjectSpec
 from ...scene.spec import SceneSpec
@@ -88,6 +89,9 @@ def _names_by_kind(scene: SceneSpec) -> dict[str, dict[str, None]]:
         for element, part in vehicle.all_parts():
             name = str(getattr(part, "name", None) or getattr(part, "dccomms_id", ""))
             names.setdefault(element, {})[name] = None
+    elements = {spec: element for element, spec in FORCES.items()}
+    for force in scene.forces:
+        names.setdefault(f"u:{elements.get(type(force), '')}", {})[force.name] = None
     return names
 
 

@@ -17,6 +17,7 @@ from ...devices.ardupilot import ArduPilotSpec
 from ...devices.lamp import LampSpec
 from ...devices.sway import SwaySpec
 from ...errors import Diagnostic
+from ...forces import TetherSpec
 from ...scene.hydrodynamics import FinSpec, VehicleHydrodynamics
 from ...scene.mounts import MountFrames
 from ...scene.object import ObjectSpec
@@ -53,6 +54,9 @@ def inventory(
         "cameras": _cameras(scene, simulation.world.model.robots),
         "sensors": sensors,
         "objects": [_object(model_scene, scene_object) for scene_object in model_scene.objects],
+        "tethers": [
+            _tether(force) for force in model_scene.forces if isinstance(force, TetherSpec)
+        ],
         "topics": topic_rows(scene, simulation),
         "services": list(simulation.bus.services.names),
         "varies": [
@@ -249,4 +253,15 @@ def _object(scene: SceneSpec, scene_object: ObjectSpec) -> Fields:
         "file": scene_object.file,
         "position": list(scene_object.position),
         "kind": kind,
+    }
+
+
+def _tether(spec: TetherSpec) -> Fields:
+    return {
+        "name": spec.name,
+        "ends": [end.body or list(end.position) for end in (spec.start, spec.end)],
+        "length": spec.length,
+        "segments": spec.segments,
+        "break_load": spec.break_load,
+        "max_length": None if spec.winch is None else spec.winch.max_length,
     }

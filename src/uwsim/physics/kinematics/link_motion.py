@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Array
 from ...base.numerics.calls import address_of
+from ...base.numerics.linear import inverse, product
 from ...base.sampling import Addresses, number_addresses
 from ...model.body_names import vehicle_joint
 from ...world import BodyMotion
@@ -98,6 +99,25 @@ class LinkMotion:
         self._poses.refresh()
         motion = link_kernel.compute_motion(self.chain(body, vehicle), point)
         return BodyMotion(motion[:3], motion[3:6], motion[6:])
+
+    def point_mass(self, body: int, point: Array) -> Array:
+        r"""Return the mass that a force at a point of a body accelerates, in W, (3, 3) [kg].
+
+        It is :math:`(J M^{-1} J^T)^{-1}` with the mass matrix M of the last step, which includes
+        the added mass, and the Jacobian J of the point. Before the first step it is the mass of the
+        body alone.
+
+        Args:
+            body: the MuJoCo ID of a body that forces move.
+            point: the point in W, (3,) [m].
+        """
+        if self._data.time == 0.0:
+            return np.eye(3) * float(self._model.body_mass[body])
+        jacobian = np.zeros((3, self._model.nv))
+        mujoco.mj_jac(self._model, self._data, jacobian, None, point, body)
+        rates = np.zeros_like(jacobian)
+        mujoco.mj_solveM(self._model, self._data, rates, jacobian)
+        return inverse(product(rates, jacobian.T))
 
     def chain(self, body: int, vehicle: int | None) -> Chain:
         """Return the joints that move a body, as a record for compiled code.

@@ -30,7 +30,9 @@ class PartPoses:
 
     def world_from_mesh(self, part: Part) -> Array:
         """Return the present pose of a part in W with its scale, (4, 4) [m]."""
-        if part.vehicle is None:
+        if part.vehicle is None and part.object is None:
+            frame = self._poses.segment(part.link).matrix
+        elif part.vehicle is None:
             assert part.object is not None
             frame = self._poses.object(part.object).matrix
         else:

@@ -53,7 +53,7 @@ class SceneRays:
         )
         """The acoustic material of each surface, by the surface's index."""
         self.vehicles: tuple[str, ...] = (*self._bodies.vehicles, *("" for _ in heaps))
-        """The name of the vehicle of each surface, by the surface's index; empty for none."""
+        """The name of the vehicle or tether of each surface, by its index; empty for none."""
 
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:

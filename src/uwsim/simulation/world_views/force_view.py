@@ -10,6 +10,8 @@ import numpy as np
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import rotate
 from ...errors import UnknownName
+from ...physics.engine import Engine
+from ...physics.kinematics.segments import SegmentBodies
 from ...scene.attachable import attachable_bodies
 from ...world import BodyMotion
 from ..physical_scene import PhysicalScene
@@ -25,6 +27,7 @@ class SceneAttachment:
         motion: a function that returns the present motion of the frame.
         engine_body: the MuJoCo ID of the body; None if forces do not move it.
         position_on_body: the origin of the frame in the frame of the engine's body, (3,) [m].
+        engine: the engine.
     """
 
     def __init__(
@@ -35,7 +38,9 @@ class SceneAttachment:
         motion: Callable[[], BodyMotion],
         engine_body: int | None,
         position_on_body: Array,
+        engine: Engine,
     ) -> None:
+        self._engine = engine
         self.name, self.vehicle = name, vehicle
         self._pose, self.motion = pose, motion
         self.engine_body = engine_body
@@ -47,6 +52,12 @@ class SceneAttachment:
     def world_from_body(self) -> Pose:
         """The present pose of the frame in W."""
         return self._pose()
+
+    def mass(self) -> Array | None:
+        """Return the mass that a force at the origin accelerates; see `uwsim.world.Attachment`."""
+        if self.engine_body is None:
+            return None
+        return self._engine.link_motion.point_mass(self.engine_body, self._pose().position)
 
 
 @dataclass(frozen=True)
@@ -73,6 +84,8 @@ class ForceView:
         """The height of the water's surface in W [m]."""
         self.water_velocity = scene.water.velocity
         """The function that returns the velocity of the water at points; see `ForceWorld`."""
+        self.rays = scene.rays
+        """The ray casting against the scene."""
         self.stream = scene.stream
         """The function that returns the random generator of a stream's name."""
         depths, densities = np.array(scene.model.density_levels).T
@@ -104,6 +117,7 @@ class ForceView:
             mount.motion,
             engine.poses.link_body(index, link) if engine.has_dynamics(index) else None,
             np.array([x, y, z]),
+            engine,
         )
 
     def _attach_to_object(self, name: str, index: int, position: Array) -> SceneAttachment:
@@ -120,7 +134,20 @@ class ForceView:
                 return BodyMotion(np.zeros(3), np.zeros(3), np.zeros(3))
             return engine.link_motion.point_motion(body, pose().position)
 
-        return SceneAttachment(name, "", pose, motion, body, object_from_frame.position)
+        return SceneAttachment(name, "", pose, motion, body, object_from_frame.position, engine)
+
+    def segments(self, name: str) -> SegmentBodies:
+        """Return the cylinders that show the force with a name.
+
+        Raises:
+            UnknownName: no force of this name is visible.
+        """
+        forces = self._scene.model.scene.forces
+        for index, force in enumerate(forces):
+            cylinders = force.drawn_segments
+            if force.name == name and cylinders is not None:
+                return self._scene.engine.poses.segments(index, cylinders.n, cylinders.length)
+        raise UnknownName("visible force", name, [force.name for force in forces])
 
     def water_density(self, points: Array) -> Array:
         """Return the density of the water at points of W (n, 3) [m], (n,) [kg/m3]; 0 in the air."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
+from ...errors import UnknownName
+from ...forces import Force, Tether
 from ...topics.frames import Frame
 from ..frames import scene_frames
 from ..markers import Markers
@@ -20,14 +22,21 @@ class TopicView(SceneView):
         scene: the scene.
         sensors: the sensors of the scene, and its devices that measure.
         markers: the markers that programs have added.
+        forces: the forces of the scene.
         is_blind: True to publish black images, and to render nothing.
     """
 
     def __init__(
-        self, scene: PhysicalScene, sensors: SceneSensors, markers: Markers, *, is_blind: bool
+        self,
+        scene: PhysicalScene,
+        sensors: SceneSensors,
+        markers: Markers,
+        forces: Sequence[Force],
+        *,
+        is_blind: bool,
     ) -> None:
         super().__init__(scene)
-        self._scene = scene
+        self._scene, self._forces = scene, forces
         self.is_blind = is_blind
         """True if images are black and nothing is rendered."""
         self.world_from_localized = scene.model.scene.world_from_localized
@@ -42,13 +51,24 @@ class TopicView(SceneView):
         """The source of segmentation images."""
         self.body = scene.bodies.find
         self.vehicle = scene.vehicles.find
-        self.marker_frames = markers.frames
+        self._markers = markers
         self.create_timer = scene.schedule.create_timer
         self.defer_to_next_step = scene.schedule.defer_to_next_step
 
-    def frames(self, *, with_objects: bool) -> Sequence[Frame]:
-        """List the frames of vehicles, links, sensors and, ``with_objects``, of objects."""
+    def tether(self, name: str) -> Tether:
+        """Find a tether by its name; raise UnknownName if there is none."""
+        tethers = {force.name: force for force in self._forces if isinstance(force, Tether)}
+        if name not in tethers:
+            raise UnknownName("tether", name, tethers)
+        return tethers[name]
+
+    def frames(self, *, with_objects: bool) -> Callable[[], Sequence[Frame]]:
+        """Return a function that lists the frames of vehicles, links and sensors.
+
+        ``with_objects`` adds objects, segments of tethers, and the markers that exist then.
+        """
         scene = self._scene
-        return scene_frames(
+        frames = scene_frames(
             scene.model, scene.engine, scene.vehicles, scene.bodies, with_objects=with_objects
         )
+        return lambda: [*frames, *(self._markers.frames() if with_objects else ())]
