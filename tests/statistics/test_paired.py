@@ -81,6 +81,12 @@ def test_no_difference_is_p_1_and_no_pair_is_no_test() -> None:
     assert sign_flip([0.0] * 4) == 1.0
     assert sign_flip([0.0] * 300) == 1.0
     assert sign_flip([]) is None
+
+
+def test_many_zeros_do_not_make_few_differences_significant() -> None:
+    """Six equal differences among 400 pairs: exactly 2/2^6, where Student's test has 1.4 %."""
+    assert sign_flip([1.0] * 6 + [0.0] * 394) == 2 / 2**6
+    assert sign_flip([1.0] * 30 + [0.0] * 394) == pytest.approx(1e-5)
     assert signed_rank([]) is None
     assert signed_rank([0.0, 0.0]) == 1.0
 

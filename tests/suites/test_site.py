@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import html
 import re
 import shutil
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from matplotlib.colors import to_rgba
 
+from uwsim.analysis.task.success_times import is_judged_at_end
 from uwsim.cli import main
-from uwsim.errors import ResultError
-from uwsim.suites.site.collect import Leaderboard, collect_submissions
+from uwsim.errors import ResultError, UnknownName
+from uwsim.suites.site.board import Leaderboard
+from uwsim.suites.site.collect import collect_submissions
+from uwsim.suites.site.figures import all_statuses, draw_endings, draw_times
 from uwsim.suites.site.page import render
-from uwsim.suites.site.trials import describe_row, notable_trials
+from uwsim.suites.site.rank_section import rank_sections, reference_section
+from uwsim.suites.site.task_section import task_section
+from uwsim.suites.site.trials import describe_row, frequent_reasons, notable_trials
 from uwsim.suites.site.write import choose_replays, write_page
 from uwsim.suites.submission import Card, load_submission, save_submission
 from uwsim.suites.suite import Suite
@@ -39,18 +47,93 @@ def test_submissions_are_ordered_by_success(entries: Path) -> None:
     assert board.exclusions == ()
 
 
-def test_a_task_that_was_not_run_counts_as_no_success(entries: Path) -> None:
+def page_text(entries: Path) -> str:
+    """Return the text of the page, without elements of HTML."""
+    page = render(collect_submissions(entries), {})
+    return " ".join(html.unescape(re.sub(r"<[^>]*>", " ", page.partition("<main>")[2])).split())
+
+
+def test_a_submission_without_all_tasks_has_no_rank_over_all_and_one_in_its_task(
+    entries: Path,
+) -> None:
     entry = copy(entries / "position-p", "lazy")
     tasks = load_submission(entry).tasks
     change(entry, name="lazy", tasks={"near-v1": tasks["near-v1"]})
-    page = render(collect_submissions(entries), {})
-    success = {
-        name: float(value)
-        for name, value in re.findall(
-            r'<a href="#submission-\d">([\w-]+)</a>.*?<td>([\d.]+)</td>', page
-        )
+    board = collect_submissions(entries)
+    assert [c.name for c in board.candidates] == ["position-p", "nothing", "lazy"]
+    section = rank_sections(board)[0]
+    groups = [[(r["name"], r["rank"], r["success"]) for r in g["rows"]] for g in section["groups"]]
+    assert groups == [
+        [("position-p", "1", "100.0"), ("nothing", "1", "75.0")],
+        [("lazy", "–", "100.0")],
+    ]
+    near = task_section(board.tasks[0], board, {}, all_statuses(board.tasks))
+    assert {row["name"]: row["rank"] for row in near["ranks"]}["lazy"] == "1"
+
+
+def test_references_are_apart_and_compared_on_common_tasks(entries: Path) -> None:
+    control = copy(entries / "nothing", "control")
+    tasks = load_submission(control).tasks
+    change(control, kind="control", name="control", tasks={"near-v1": tasks["near-v1"]})
+    board = collect_submissions(entries)
+    groups = rank_sections(board)[0]["groups"]
+    assert [[row["name"] for row in group["rows"]] for group in groups] == [
+        ["position-p", "nothing"],
+        ["control"],
+    ]
+    reference = reference_section(board)
+    assert reference is not None
+    cells = {row["name"]: row["cells"][0]["note"] for row in reference["rows"]}
+    assert cells == {
+        "position-p": "100 to 50 %, 1 task",
+        "nothing": "50 to 50 %, 1 task",
+        "control": "",
     }
-    assert success == {"position-p": 100.0, "nothing": pytest.approx(75.0), "lazy": 50.0}
+
+
+def test_too_few_seeds_are_stated_and_have_no_places(entries: Path) -> None:
+    """Three seeds of one task; the two tasks together have six units, which are just enough."""
+    text = page_text(entries)
+    assert text.count("3 seeds cannot separate 2 submissions: 6 are needed. All are tied.") == 2
+    row = rank_sections(collect_submissions(entries))[0]["groups"][0]["rows"][0]
+    assert row["places"] == "–"
+
+
+def test_a_page_of_the_short_form_states_that_it_is_a_trial(entries: Path) -> None:
+    assert "Short form" not in page_text(entries)
+    for name in ("position-p", "nothing"):
+        change(entries / name, is_short=True)
+    text = page_text(entries)
+    assert "Short form: a trial, no leaderboard." in text
+    assert "cannot separate" not in text
+
+
+def test_the_reasons_of_failures_are_on_the_page(entries: Path) -> None:
+    assert re.search(r"\d far: offset_max > 0\.9; offset_max = |missed: not offset < 0\.4",
+                     page_text(entries))  # fmt: skip
+    result = collect_submissions(entries).candidates[1].results["near-v1"]
+    reasons = dict(frequent_reasons(result))
+    counts = Counter(result.values("status"))
+    assert {s: sum(n for n, _ in kinds) for s, kinds in reasons.items()} == {
+        s: n for s, n in counts.items() if s != "ok"
+    }
+
+
+def test_a_status_has_one_colour_in_all_tasks(entries: Path) -> None:
+    board = collect_submissions(entries)
+    statuses = ["ok", "left", "missed", "far"]
+    for task in board.tasks:
+        axes = draw_endings(task, statuses).axes[0]
+        handles, labels = axes.get_legend_handles_labels()
+        colours = {n: h.patches[0].get_facecolor() for n, h in zip(labels, handles, strict=True)}
+        assert colours["ok"] == to_rgba("#009E73")
+        assert colours.get("missed", to_rgba("#E69F00")) == to_rgba("#E69F00")
+
+
+def test_a_task_that_judges_at_its_end_has_no_times_to_success(entries: Path) -> None:
+    task = collect_submissions(entries).tasks[0]
+    assert all(is_judged_at_end(entry.result) for entry in task.entries)
+    assert draw_times(task) is None
 
 
 def test_the_suite_gives_the_descriptions(entries: Path, small_suite: Path) -> None:
@@ -158,6 +241,9 @@ def test_the_worst_trial_is_a_failure_with_the_greatest_error(entries: Path) -> 
     assert describe_row(result, rows["worst"]).endswith("missed")
     assert choose_replays(board, "best") == [(0, 0), (1, 0)]
     assert len(choose_replays(board, "all")) == 4
+    assert choose_replays(board, "nothing") == [(0, 1), (1, 1)]
+    with pytest.raises(UnknownName, match="Did you mean 'nothing'"):
+        choose_replays(board, "nothin")
 
 
 @pytest.mark.slow
@@ -166,7 +252,7 @@ def test_the_command_writes_replays_of_the_best(
 ) -> None:
     out = tmp_path / "page"
     assert main(["suite", "site", str(entries), "-o", str(out)]) == 0
-    assert "2 submissions ranked" in capsys.readouterr().out
+    assert "2 submissions compared" in capsys.readouterr().out
     page = (out / "index.html").read_text()
     links = re.findall(r'href="(replays/[^"]*)"', page)
     assert len(links) == 4

@@ -13,7 +13,15 @@ from .interval import Interval, mean_interval
 from .median import Median, median_interval, min_values_for_median
 from .paired import mcnemar, min_p_value, min_pairs, sign_flip, signed_rank
 from .power import power, repeats_needed
-from .ranking import Rank, Strength, bradley_terry, count_wins, paired_ranks
+from .ranking import (
+    Rank,
+    Strength,
+    bradley_terry,
+    count_wins,
+    paired_p,
+    paired_ranks,
+    seeds_to_rank,
+)
 from .rate import Rate, rate
 from .survival import (
     LogRank,
@@ -46,11 +54,13 @@ __all__ = [
     "min_pairs",
     "min_values_for_median",
     "paired_log_rank",
+    "paired_p",
     "paired_ranks",
     "power",
     "rank_biserial",
     "rate",
     "repeats_needed",
+    "seeds_to_rank",
     "sign_flip",
     "signed_rank",
     "success_curve",

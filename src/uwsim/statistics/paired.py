@@ -29,7 +29,8 @@ def sign_flip(differences: Sequence[float]) -> float | None:
     distribution, and never below :math:`2/2^n`. For more than `MAX_EXACT_PAIRS` differences,
     :math:`m` = `N_SIGN_PATTERNS` random patterns are evaluated, and p is :math:`(b+1)/(m+1)` if the
     mean is at least as far from zero for b of them (Phipson and Smyth 2010). For more than
-    `MAX_COUNTED_PAIRS` differences, p is that of Student's paired t-test.
+    `MAX_COUNTED_PAIRS` differences, p is that of Student's paired t-test. Zeros have no sign and
+    are then left out first: with few other values the distribution is far from Student's.
 
     The result is None without differences.
     """
@@ -37,8 +38,14 @@ def sign_flip(differences: Sequence[float]) -> float | None:
     if n == 0:
         return None
     values = np.sort(np.asarray(differences, dtype=np.float64))
+    is_sparse = n > MAX_COUNTED_PAIRS
+    if is_sparse:
+        values = values[values != 0.0]
+        n = len(values)
     total = abs(math.fsum(differences))
     threshold = total - 1e-12 * math.fsum(map(abs, differences))
+    if n == 0:
+        return 1.0
     if n <= MAX_EXACT_PAIRS:
         sums = values[:1]  # one sign of the first suffices: the distribution is symmetric
         for value in values[1:]:
@@ -47,7 +54,8 @@ def sign_flip(differences: Sequence[float]) -> float | None:
     if n > MAX_COUNTED_PAIRS:
         return _student_p(values)
     sums = np.zeros(N_SIGN_PATTERNS)
-    for value, signs in zip(values.tolist(), _random_signs(n), strict=True):
+    all_signs = _random_signs(MAX_COUNTED_PAIRS)[:n] if is_sparse else _random_signs(n)
+    for value, signs in zip(values.tolist(), all_signs, strict=True):
         sums += value * signs
     return (1 + int(np.count_nonzero(np.abs(sums) >= threshold))) / (N_SIGN_PATTERNS + 1)
 

@@ -10,12 +10,14 @@ import numpy.typing as npt
 
 from ..base.rng import stream
 from .holm import holm
-from .paired import sign_flip
+from .paired import min_p_value, min_pairs, sign_flip
 
 N_RANK_RESAMPLES = 10_000
 """The number of resamples of the seeds."""
 MAX_ITERATIONS = 10_000
 """The greatest number of iterations for the strengths."""
+MIN_SEEDS_OF_PLACES = 6
+"""The number of seeds of each task from which an interval of the place is stated."""
 EQUAL_SCORES = 1e-9
 """The difference, as a share of the largest absolute score, up to which scores are equal [1]."""
 
@@ -31,10 +33,10 @@ class Rank:
     """The mean over the tasks of the mean score over the seeds."""
     place: int
     """1 plus the number of algorithms with a higher score; equal scores share a place."""
-    low: int
-    """The best place within the interval over resampled seeds."""
-    high: int
-    """The worst place within the interval over resampled seeds."""
+    low: int | None
+    """The best place within the interval over resampled seeds; None for too few seeds."""
+    high: int | None
+    """The worst place within the interval over resampled seeds; None for too few seeds."""
     n_better: int
     """The number of algorithms that are shown to be better."""
     n_worse: int
@@ -55,14 +57,20 @@ def paired_ranks(
     have the same weight. There are two statements on its rank:
 
     - *Ties.* For each pair of algorithms, a sign-flip test of the sum of the paired differences
-      over all seeds and tasks, each divided by the number of seeds of its task. The p-values of all
-      pairs are corrected by Holm's method. ``n_better`` counts the algorithms with a higher score
-      and a corrected p up to ``alpha``. The probability that any of these statements is false is
-      at most ``alpha``. With few seeds no difference can be shown, and all algorithms share rank 1.
+      over all seeds and tasks, each divided by the number of seeds of its task. A unit is a seed of
+      a task: the tasks are given, and the seeds of different tasks are independent draws, so each
+      unit has a sign of its own. If one algorithm is better in some tasks and worse in others, and
+      the sum is 0, the test shows a difference less often than ``alpha``. The p-values of all pairs
+      are corrected by Holm's method; pairs that differ in too few units to reach ``alpha`` are not
+      counted (Tarone 1990, *Biometrics* 46, 515). ``n_better`` counts the algorithms with a higher
+      score and a corrected p up to ``alpha``. The probability that any of these statements is
+      false is at most ``alpha``. With few units no difference can be shown, and all algorithms
+      share rank 1 (`seeds_to_rank`).
     - *Interval.* In each task the seeds are drawn with replacement, the same for all algorithms.
       ``low`` and ``high`` are percentiles of the place over `N_RANK_RESAMPLES` resamples. The
       places of algorithms that are nearly equal vary from resample to resample. For few seeds the
-      interval is too narrow (Hall and Miller 2009, *Ann. Statist.* 37, 3929).
+      interval is too narrow (Hall and Miller 2009, *Ann. Statist.* 37, 3929). It is None for tasks
+      of fewer than `MIN_SEEDS_OF_PLACES` seeds, and if no pair can be separated.
 
     Args:
         tasks: the scores of each task, (n_algorithms, n_seeds); the seeds may differ between tasks.
@@ -77,22 +85,43 @@ def paired_ranks(
         shapes = ", ".join(str(array.shape) for array in arrays) or "no task"
         raise ValueError(f"scores of {shapes}: expected (n_algorithms, n_seeds) for each task")
     totals = np.mean([array.mean(axis=1) for array in arrays], axis=0)  # (n_algorithms,)
-    resampled_places = _places(_resampled_totals(arrays))  # (n_algorithms, N_RANK_RESAMPLES)
-    tail = (1 - confidence) / 2
-    low = np.quantile(resampled_places, tail, axis=1, method="lower")
-    high = np.quantile(resampled_places, 1 - tail, axis=1, method="higher")
     is_better = _shown_better(arrays, totals, alpha)
+    n_seeds = [array.shape[1] for array in arrays]
+    has_places = min(n_seeds) >= MIN_SEEDS_OF_PLACES and (
+        bool(is_better.any()) or sum(n_seeds) >= _units_to_rank(len(totals), alpha)
+    )
+    intervals = _place_intervals(arrays, confidence) if has_places else [(None, None)] * len(totals)
     return tuple(
         Rank(
             score=float(totals[i]),
             place=int(place),
-            low=int(low[i]),
-            high=int(high[i]),
+            low=intervals[i][0],
+            high=intervals[i][1],
             n_better=int(is_better[:, i].sum()),
             n_worse=int(is_better[i].sum()),
         )
         for i, place in enumerate(_places(totals[:, np.newaxis])[:, 0])
     )
+
+
+def seeds_to_rank(n_algorithms: int, n_tasks: int = 1, *, alpha: float = 0.05) -> int:
+    r"""Return the least number of seeds of each task from which ranks can differ.
+
+    The smallest p of a sign-flip test of n units is :math:`2/2^n`, and the first step of Holm's
+    method multiplies it by the number of pairs :math:`k(k-1)/2` of k algorithms. A unit is a seed
+    of a task. From n seeds on, an algorithm that is better in each unit can be shown to be better.
+
+    Args:
+        n_algorithms: the number k of algorithms.
+        n_tasks: the number of tasks, all with the same number of seeds.
+        alpha: the significance level of the ties.
+    """
+    return -(-_units_to_rank(n_algorithms, alpha) // n_tasks)
+
+
+def _units_to_rank(n_algorithms: int, alpha: float) -> int:
+    """Return the least number of units at which a difference of two algorithms can be shown."""
+    return min_pairs(alpha / max(1, n_algorithms * (n_algorithms - 1) // 2))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,6 +197,17 @@ def count_wins(tasks: Sequence[Scores]) -> npt.NDArray[np.float64]:
     return wins
 
 
+def _place_intervals(tasks: Sequence[Scores], confidence: float) -> list[tuple[int, int]]:
+    """Return the interval of the place of each algorithm over resampled seeds."""
+    places = _places(_resampled_totals(tasks))  # (n_algorithms, N_RANK_RESAMPLES)
+    tail = (1 - confidence) / 2
+    low = np.quantile(places, tail, axis=1, method="lower")
+    high = np.quantile(places, 1 - tail, axis=1, method="higher")
+    return [
+        (int(low_place), int(high_place)) for low_place, high_place in zip(low, high, strict=True)
+    ]
+
+
 def _resampled_totals(tasks: Sequence[Scores]) -> Scores:
     """Return the score of each algorithm in each resample, (n_algorithms, N_RANK_RESAMPLES)."""
     totals = np.zeros((len(tasks[0]), N_RANK_RESAMPLES))
@@ -192,15 +232,26 @@ def _shown_better(tasks: Sequence[Scores], totals: Scores, alpha: float) -> npt.
     """Return whether algorithm i is shown to be better than j, (n, n)."""
     n = len(totals)
     pairs = [(i, j) for i in range(n) for j in range(i + 1, n)]
-    p_values = holm(
-        [
-            sign_flip(np.concatenate([(s[i] - s[j]) / s.shape[1] for s in tasks]).tolist())
-            for i, j in pairs
-        ]
-    )
+    p_values = holm([paired_p([(s[i], s[j]) for s in tasks], alpha) for i, j in pairs])
     is_better = np.zeros((n, n), dtype=np.bool_)
     for (i, j), p in zip(pairs, p_values, strict=True):
         if p is not None and p <= alpha:
             winner, loser = (i, j) if totals[i] > totals[j] else (j, i)
             is_better[winner, loser] = True
     return is_better
+
+
+def paired_p(tasks: Sequence[tuple[Scores, Scores]], alpha: float) -> float | None:
+    """Return the p-value of equal scores of two algorithms over tasks of equal weight.
+
+    A unit is a seed of a task, with a sign of its own (`paired_ranks`). The p-value is None if too
+    few units differ for any p up to ``alpha``.
+
+    Args:
+        tasks: the scores of both in each task, each of shape (n_seeds,).
+        alpha: the significance level.
+    """
+    differences = np.concatenate([(first - second) / len(first) for first, second in tasks])
+    if min_p_value(int(np.count_nonzero(differences))) > alpha:
+        return None
+    return sign_flip(differences.tolist())

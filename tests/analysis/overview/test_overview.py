@@ -24,6 +24,7 @@ from uwsim.analysis.overview import (
     read_tasks,
     write_overview,
 )
+from uwsim.analysis.overview.ranks import compare_algorithms, success_of
 from uwsim.analysis.overview.tasks import OverviewTask
 from uwsim.analysis.plots.success_overview import COLOUR_MAP, INK, _luminance, success_overview
 from uwsim.cli import main
@@ -111,6 +112,38 @@ def test_ranks_are_over_the_tasks_of_all(tasks: tuple[OverviewTask, ...]) -> Non
     assert (best.rank, worst.rank, worst.low, worst.high) == (1, 2, 2, 2)
     assert ranks.strengths[0].value == -ranks.strengths[1].value > 0.0
     assert rank_algorithms(tasks[2:]) is None
+
+
+@pytest.mark.parametrize(
+    ("n", "note"), [(8, "8 seeds cannot separate 5 algorithms: 9 are"), (9, "")]
+)
+def test_too_few_seeds_for_the_algorithms_are_stated(n: int, note: str) -> None:
+    """Holm's first step multiplies 2/2^n by the ten pairs of five algorithms."""
+    entries = [
+        Entry(
+            name=f"a{i}",
+            source="x",
+            sha256="0" * 64,
+            result=of_task("hover", make_result(f"a{i}", outcomes(*[n] * i, *[0] * (4 - i), n=n))),
+        )
+        for i in range(5)
+    ]
+    ranks = rank_algorithms([OverviewTask(name="hover", entries=tuple(entries))])
+    assert ranks is not None
+    assert ranks.note.startswith(note)
+    assert bool(ranks.note) == (n == 8)
+    assert (ranks.ranks[0].low, ranks.ranks[0].n_worse) == ((None, 0) if n == 8 else (1, 4))
+
+
+def test_algorithms_are_compared_over_the_tasks_that_both_ran(
+    tasks: tuple[OverviewTask, ...],
+) -> None:
+    common = compare_algorithms(tasks, "best", ["worst"])["worst"]
+    assert (common.n_tasks, common.verdict) == (2, "better")
+    assert common.first == pytest.approx((1.0 + 21 / 24) / 2)
+    assert compare_algorithms(tasks, "worst", ["best"])["best"].verdict == "worse"
+    assert compare_algorithms(tasks[2:], "worst", ["best"]) == {}
+    assert success_of(tasks[1:], "worst") == pytest.approx(3 / 24)
 
 
 def test_seeds_that_one_did_not_run_do_not_count() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ...errors import ResultError
 from ...results.per_level import round_level, success_rates
+from ...results.result import Column
 from ...results.table import exact_decimals, number_text
 from ...statistics import Rate
 from ..comparison import Entry, differences, read_entries
@@ -91,7 +92,7 @@ def algorithm_names(tasks: Sequence[OverviewTask]) -> tuple[str, ...]:
 def overview_rows(tasks: Sequence[OverviewTask]) -> tuple[OverviewRow, ...]:
     """Return the rows of the heat map: one for each task and value of its outer parameters.
 
-    Parameters with one value in all results of a task are left out.
+    Parameters with one value in all results of a task are left out, unless all have one.
     """
     rows: list[OverviewRow] = []
     for task in tasks:
@@ -99,7 +100,6 @@ def overview_rows(tasks: Sequence[OverviewTask]) -> tuple[OverviewRow, ...]:
         columns = task.entries[0].result.columns_of_kind("level")
         all_levels = sorted({level for levels in rates.values() for level in levels})
         indices = [i for i in range(len(columns)) if len({level[i] for level in all_levels}) > 1]
-        indices = indices or [i for i, column in enumerate(columns) if column.name != "none"][-1:]
         outer_levels: dict[Level, list[Level]] = {}
         for level in all_levels:
             outer_levels.setdefault(tuple(level[i] for i in indices[:-1]), []).append(level)
@@ -109,7 +109,9 @@ def overview_rows(tasks: Sequence[OverviewTask]) -> tuple[OverviewRow, ...]:
             rows.append(
                 OverviewRow(
                     task=task.name,
-                    parameter=level_label(columns[indices[-1]]) if indices else "",
+                    parameter=level_label(columns[indices[-1]])
+                    if indices
+                    else _only_level(columns, all_levels),
                     outer_level=levels_text([columns[i] for i in indices[:-1]], outer_level)
                     if outer_level
                     else "",
@@ -121,6 +123,12 @@ def overview_rows(tasks: Sequence[OverviewTask]) -> tuple[OverviewRow, ...]:
                 )
             )
     return tuple(rows)
+
+
+def _only_level(columns: Sequence[Column], levels: Sequence[Level]) -> str:
+    """Return the values of all parameters of a task with one level; empty without parameters."""
+    has_parameters = any(column.name != "none" for column in columns)
+    return levels_text(columns, levels[0]) if has_parameters and levels else ""
 
 
 def _name_entries(entries: Sequence[Entry], folders: Sequence[str]) -> tuple[Entry, ...]:

@@ -8,7 +8,7 @@ from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from .ranks import TaskRanks, rank_algorithms
+from .ranks import TaskRanks, places_text, rank_algorithms
 from .tasks import OverviewTask
 
 RANK_LEGEND = (
@@ -34,6 +34,8 @@ def overview_parts(tasks: Sequence[OverviewTask]) -> Iterator[RenderableType]:
     )
     yield Text(f"Success over {counts}", style="bold")
     yield _rank_table(ranks)
+    if ranks.note:
+        yield Text(ranks.note, style="bold")
     yield Text(RANK_LEGEND + (STRENGTH_LEGEND if ranks.strengths else ""))
 
 
@@ -45,8 +47,12 @@ def _rank_table(ranks: TaskRanks) -> Table:
     for heading in [*headings, "strength"] if ranks.strengths else headings:
         table.add_column(heading, justify="right", no_wrap=True)
     for i, (name, rank) in enumerate(zip(ranks.algorithms, ranks.ranks, strict=True)):
-        places = str(rank.low) if rank.low == rank.high else f"{rank.low} to {rank.high}"
-        cells = [f"{100 * rank.score:.1f} %", places, str(rank.n_better), str(rank.n_worse)]
+        cells = [
+            f"{100 * rank.score:.1f} %",
+            places_text(rank),
+            str(rank.n_better),
+            str(rank.n_worse),
+        ]
         if ranks.strengths:
             strength = ranks.strengths[i]
             cells.append(f"{strength.value + 0.0:.2f} ± {strength.standard_error:.2f}")

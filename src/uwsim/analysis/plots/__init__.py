@@ -31,6 +31,7 @@ from .style import (
     SIZE,
     escape,
     level_label,
+    level_word,
     styled_figure,
     write_note,
 )
@@ -59,6 +60,7 @@ __all__ = [
     "label_of",
     "level_label",
     "level_text",
+    "level_word",
     "levels_text",
     "repeats_of",
     "save_pdf",

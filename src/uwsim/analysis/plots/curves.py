@@ -105,8 +105,8 @@ def levels_text(columns: Sequence[Column], level: Sequence[float]) -> str:
 
 
 def written_unit(unit: str) -> str:
-    """Return a unit as it is written after a number: m⁻¹ for 1/m."""
-    return re.sub(r"^1/(\w+)$", r"\1⁻¹", unit)
+    """Return a unit as it is written after a number: m⁻¹ for 1/m, µPa² for uPa2."""
+    return re.sub(r"^1/(\w+)$", r"\1⁻¹", unit).replace("uPa2", "µPa²")
 
 
 def label_of(result: Result, column: Column) -> str:

@@ -105,7 +105,14 @@ def shorten_name(name: str, max_length: int = MAX_NAME_LENGTH) -> str:
     return f"{name[:half]}…{name[-half + 1 :]}"
 
 
+def level_word(column: Column) -> str:
+    """Return the words for a swept parameter; empty for the parameter ``none``."""
+    if column.name == "noise" and (column.unit or "").startswith("dB"):
+        return "noise level of the water"
+    return LEVEL_WORDS.get(column.name, column.name)
+
+
 def level_label(column: Column) -> str:
     """Return the label of the axis of a level: ``fog density [m⁻¹]``."""
-    label = LEVEL_WORDS.get(column.name, column.name)
+    label = level_word(column)
     return f"{label} [{written_unit(column.unit)}]" if column.unit else label

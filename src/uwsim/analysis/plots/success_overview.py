@@ -26,6 +26,12 @@ CELL_WIDTH, CELL_HEIGHT = 0.5, 0.42
 """The size of a cell [inch]."""
 LABEL_SIZE = 1.75
 """The width of the labels of the rows [inch]."""
+MIN_MAP_WIDTH = 2
+"""The least width of a map, which has to contain the name of an algorithm [cells]."""
+MIN_WIDTH = 4.6
+"""The least width of the figure, which has to contain the note [inch]."""
+TITLE_DENSITY = 14.0
+"""The number of characters of a title per inch."""
 MAX_COLUMNS = 16
 """The greatest number of cells next to each other, over all maps."""
 HEADING_HEIGHT = 0.85
@@ -63,12 +69,13 @@ def success_overview(rows: Sequence[OverviewRow], algorithms: Sequence[str]) -> 
         algorithms: the names of the algorithms, at least one, in the order of the maps.
     """
     n_levels = max(len(row.levels) for row in rows)
-    n_columns = max(1, min(len(algorithms), MAX_COLUMNS // n_levels))
+    map_width = max(n_levels, MIN_MAP_WIDTH)  # [cells]
+    n_columns = max(1, min(len(algorithms), MAX_COLUMNS // map_width))
     n_rows = math.ceil(len(algorithms) / n_columns)
     n_headings = sum(_is_heading(rows, i) for i in range(len(rows)))
     height = CELL_HEIGHT * (len(rows) + HEADING_HEIGHT * n_headings)
     size = (
-        LABEL_SIZE + n_columns * (CELL_WIDTH * n_levels + 0.12) + 0.9,
+        max(MIN_WIDTH, LABEL_SIZE + n_columns * (CELL_WIDTH * map_width + 0.12) + 0.9),
         n_rows * (height + 0.3) + 0.35,
     )
     with styled_figure(size) as figure:
@@ -77,7 +84,7 @@ def success_overview(rows: Sequence[OverviewRow], algorithms: Sequence[str]) -> 
             if i >= len(algorithms):
                 axes.set_axis_off()
                 continue
-            _draw_map(axes, rows, algorithms[i], n_levels, has_labels=i % n_columns == 0)
+            _draw_map(axes, rows, algorithms[i], map_width, has_labels=i % n_columns == 0)
         scale = ScalarMappable(cmap=mpl.colormaps[COLOUR_MAP])
         scale.set_clim(0.0, 1.0)
         bar = figure.colorbar(scale, ax=list(grid.ravel()), shrink=0.9, aspect=30, pad=0.02)
@@ -86,7 +93,7 @@ def success_overview(rows: Sequence[OverviewRow], algorithms: Sequence[str]) -> 
         is_complete = all(None not in row.rates.get(a, (None,)) for a in algorithms for row in rows)
         write_note(
             figure,
-            "cells: value of the parameter, successes / trials, exact 95 % interval of the rate "
+            "cells: value of the parameter, successes / trials, exact 95 % interval of the rate",
             "(Clopper and Pearson) [%]" + ("" if is_complete else "; hatched: not run"),
         )
     return figure
@@ -98,7 +105,7 @@ def _is_heading(rows: Sequence[OverviewRow], i: int) -> bool:
 
 
 def _draw_map(
-    axes: Axes, rows: Sequence[OverviewRow], algorithm: str, n_levels: int, *, has_labels: bool
+    axes: Axes, rows: Sequence[OverviewRow], algorithm: str, width: int, *, has_labels: bool
 ) -> None:
     y = 0.0
     labels: list[tuple[float, str, bool]] = []  # position, text, True for the name of a task
@@ -118,7 +125,7 @@ def _draw_map(
         for x, level in enumerate(row.levels):
             _draw_cell(axes, x, y, level, rates[x] if x < len(rates) else None)
         y += 1.0
-    axes.set_xlim(0.0, n_levels)
+    axes.set_xlim(0.0, width)
     axes.set_ylim(y, 0.0)
     axes.set_xticks([])
     labels = labels if has_labels else []
@@ -131,7 +138,8 @@ def _draw_map(
     axes.tick_params(length=0)
     axes.grid(visible=False)
     axes.spines[:].set_visible(False)
-    axes.set_title(escape(shorten_name(algorithm)), fontsize=9, loc="left", pad=3)
+    name = shorten_name(algorithm, int(TITLE_DENSITY * CELL_WIDTH * width))
+    axes.set_title(escape(name), fontsize=8, loc="left", pad=3)
 
 
 def _draw_cell(axes: Axes, x: float, y: float, level: str, rate: Rate | None) -> None:

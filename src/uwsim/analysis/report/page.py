@@ -28,7 +28,6 @@ from ...results.result import ImageStream, Result
 from ...results.result_file import file_of, load
 from ...results.table import MAX_FIXED, number_text, sensible_decimals, unit_of
 from ..plots import (
-    LEVEL_WORDS,
     MAX_INSIDE,
     OVERVIEW_NAME,
     RunPlot,
@@ -36,6 +35,7 @@ from ..plots import (
     draw_plots,
     draw_run_plots,
     is_fog_swept,
+    level_word,
     repeats_of,
     written_unit,
 )
@@ -207,7 +207,7 @@ def _lead(result: Result) -> str:
     ranges, counts = [], []
     for i, column in enumerate(result.columns_of_kind("level")):
         values = sorted({level[i] for level in levels})
-        label = LEVEL_WORDS.get(column.name, column.name)
+        label = level_word(column)
         if label and values:
             span = f"{values[0]:g}" + (f" to {values[-1]:g}" if len(values) > 1 else "")
             ranges.append(f"{label} {span}{_unit_suffix(column.unit)}")

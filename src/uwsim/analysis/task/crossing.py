@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...results.result import Result
-from ..plots import LEVEL_WORDS, level_text
+from ..plots import level_text, level_word
 from .cells import TaskCell, task_cells
 
 Level = tuple[float, ...]
@@ -70,7 +70,7 @@ def crossing_sentence(result: Result, crossing: Crossing) -> str:
     """Return the sentence ``The success rate falls below 50 % between fog 0.75 and 1 m⁻¹ ...``."""
     columns = result.columns_of_kind("level")
     column = columns[crossing.parameter]
-    label = LEVEL_WORDS.get(column.name, column.name)
+    label = level_word(column)
     fixed = [
         level_text(other, value)
         for i, (other, value) in enumerate(zip(columns, crossing.level, strict=True))

@@ -12,6 +12,8 @@ from .cells import JUDGING_DETAIL
 
 UNDECIDED_STATUSES = ("timeout", "simulation error")
 """The statuses of trials that end without success or failure: they are censored."""
+MAX_DELAY = 1.0
+"""The time after a success up to which its level ends [s]."""
 
 
 def success_times(result: Result) -> tuple[TrialTime, ...] | None:
@@ -41,6 +43,33 @@ def success_times(result: Result) -> tuple[TrialTime, ...] | None:
             time = duration if status in UNDECIDED_STATUSES else math.inf
             trials.append(TrialTime(time=time, has_succeeded=False))
     return tuple(trials)
+
+
+def is_judged_at_end(result: Result) -> bool:
+    """Return whether successes are judged at the end of a level, so that they have no time.
+
+    That is so if an outcome alone judges (`Outcome`), and levels go on after its condition holds:
+    to stay at a place is no event, and the condition may hold from the first step.
+    """
+    suffix = f".{JUDGING_DETAIL}"
+    details = [column.name for column in result.columns_of_kind("detail")]
+    judges = [name.removesuffix(suffix) for name in details if name.endswith(suffix)]
+    if len(judges) != 1 or sum(name.startswith(f"{judges[0]}.") for name in details) > 1:
+        return False
+    times = result.numbers(result.columns_of_kind("time")[0].name)
+    statuses = result.values(result.columns_of_kind("status")[0].name)
+    return any(
+        status == "ok" and done_time < duration - MAX_DELAY
+        for status, duration, done_time in zip(
+            statuses, _durations(result, times), _done_times(result), strict=True
+        )
+    )
+
+
+def longest_level(result: Result) -> float:
+    """Return the longest duration of a level of any row [s]; 0 without times."""
+    columns = result.columns_of_kind("time")
+    return max(_durations(result, result.numbers(columns[0].name)), default=0.0) if columns else 0.0
 
 
 def time_limit(trials: Sequence[TrialTime]) -> float | None:

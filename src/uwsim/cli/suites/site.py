@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import closing
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import typer
 
@@ -16,7 +16,6 @@ from ..output.progress import progress
 Submissions = Annotated[
     Path, typer.Argument(metavar="DIR", help="The folder with a subfolder for each submission.")
 ]
-Selection = Literal["none", "best", "all"]
 FILM_SIZE = (480, 360)
 """The width and height of films [px]."""
 FILM_RATE = 5.0
@@ -39,12 +38,13 @@ def write_leaderboard(
         ),
     ] = None,
     replays: Annotated[
-        Selection,
+        str,
         option(
             OUTPUT,
             "--replays",
-            help="Submissions whose median and worst trial are shown in each task: none, the best, "
-            "or all. A replay takes about 10 s and 1 MB.",
+            metavar="none|best|all|NAME",
+            help="Submissions whose median and worst trial are shown in each task: none, the best "
+            "of each task, all, or the one of a name. A replay takes about 10 s and 1 to 4 MB.",
         ),
     ] = "best",
     films: Annotated[
@@ -54,19 +54,22 @@ def write_leaderboard(
 ) -> None:
     """Write the page of a leaderboard from a folder of submissions.
 
-    It has ranks with ties and intervals, and a heat map of tasks and difficulty. Each task has
-    success rates, failure classes, times to success and replays. Each submission has a card;
-    excluded ones have the reason. The page opens from disk, and can be published as it is.
+    It has ranks with ties and intervals, over all tasks and in each, and a heat map of tasks and
+    difficulty. Each task has success rates, failures with reasons, times to success and replays.
+    Each submission has a card; excluded ones have the reason. The page opens from disk, and can be
+    published as it is.
     The same submissions give the same bytes.
     """
     from ...results.directory import clear_directory
     from ...suites.site.collect import collect_submissions
+    from ...suites.site.trials import notable_trials
     from ...suites.site.write import REPLAYS_FOLDER, SITE_FILES, choose_replays, write_site
 
     board = collect_submissions(directory, suite)
+    pairs = choose_replays(board, replays)
+    trials = [notable_trials(board.candidates[j].results[board.tasks[i].name]) for i, j in pairs]
     clear_directory(out, overwrite=overwrite, pattern=SITE_FILES, folders=(REPLAYS_FOLDER,))
-    n = 2 * len(choose_replays(board, replays))
-    with progress("replays", n, unit="files") as on_replay:
+    with progress("replays", sum(map(len, trials)), unit="files") as on_replay:
         page = write_site(
             board,
             out,
@@ -77,7 +80,8 @@ def write_leaderboard(
         )
     for entry in board.exclusions:
         print(clean_text(f"excluded: {entry.name}: {' '.join(entry.reasons)}"))
-    print(f"{len(board.candidates)} submissions ranked; written: {page}")
+    n = len(board.candidates)
+    print(f"{n} submission{'s' * (n != 1)} compared; written: {page}")
 
 
 def save_replay(directory: Path, trial: int, path: Path) -> None:

@@ -4,63 +4,23 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ...analysis.comparison import Entry
-from ...analysis.overview.ranks import rank_algorithms
 from ...analysis.overview.tasks import OverviewTask
 from ...assets.bundled import bundled_files
 from ...base.files.input_files import compute_hash
 from ...errors import ResultError, UwsimError
 from ...results.journal_check import check_rows
-from ...results.result import Result
 from ...results.result_file import load
 from ..submission import FILE, Submission, load_submission
 from ..suite import SuiteSpec, find_suite, read_suite
 from ..verification import DIFFERING_VERDICT, UNKNOWN_VERDICT, VERIFIED_VERDICT
 from ..verification import FILE as VERIFICATION_FILE
-
-
-@dataclass(frozen=True, kw_only=True)
-class Candidate:
-    """A submission with its results."""
-
-    name: str
-    """The name in tables, which is unique on the page."""
-    directory: Path
-    """The folder of the submission."""
-    submission: Submission
-    """The content of ``submission.json``."""
-    results: Mapping[str, Result]
-    """The results by task."""
-    verdict: str
-    """The verdict of the last verification, if it is of this content."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Exclusion:
-    """A submission that is not ranked."""
-
-    name: str
-    """The name of its folder."""
-    reasons: tuple[str, ...]
-    """The reasons, each in one line."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Leaderboard:
-    """The content of the page."""
-
-    suite: SuiteSpec | None
-    """The suite, for descriptions; None if its file is not found by the name."""
-    candidates: tuple[Candidate, ...]
-    """The ranked submissions."""
-    exclusions: tuple[Exclusion, ...]
-    """The other submissions."""
-    tasks: tuple[OverviewTask, ...]
-    """The results by task, in the order of the suite."""
+from .board import Candidate, Exclusion, Leaderboard
+from .standings import rank_candidates
 
 
 def collect_submissions(directory: Path, suite_name: str | None = None) -> Leaderboard:
@@ -86,7 +46,8 @@ def collect_submissions(directory: Path, suite_name: str | None = None) -> Leade
         except UwsimError as error:
             reason = " ".join(str(error).split())
             exclusions.append(Exclusion(name=folder.name, reasons=(reason,)))
-    candidates, more_exclusions = _select_equal(_distinguish(candidates))
+    candidates, more_exclusions = _select_equal(candidates)
+    candidates = _distinguish(candidates)
     exclusions += more_exclusions
     if not candidates:
         texts = [f" {entry.name}: {entry.reasons[0]}" for entry in exclusions[:1]]
@@ -97,22 +58,13 @@ def collect_submissions(directory: Path, suite_name: str | None = None) -> Leade
         suite = read_suite(find_suite(suite_name)).spec
     elif name in bundled_files("suites"):
         suite = read_suite(find_suite(name)).spec
-    ordered_candidates = _order_by_rank(candidates, _group_tasks(candidates, suite))
+    ordered_candidates = rank_candidates(candidates, _group_tasks(candidates, suite)).all_candidates
     return Leaderboard(
         suite=suite,
         candidates=tuple(ordered_candidates),
         exclusions=tuple(sorted(exclusions, key=lambda entry: entry.name)),
         tasks=_group_tasks(ordered_candidates, suite),
     )
-
-
-def _order_by_rank(
-    candidates: Sequence[Candidate], tasks: Sequence[OverviewTask]
-) -> list[Candidate]:
-    """Return the submissions by rank, and then by success."""
-    ranks = rank_algorithms(tasks, absent_tasks_fail=True)
-    names = [] if ranks is None else list(ranks.algorithms)
-    return sorted(candidates, key=lambda c: names.index(c.name) if c.name in names else 0)
 
 
 def _read_candidate(folder: Path) -> Candidate:

@@ -7,16 +7,19 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ...base.terminal import warn
-from ...errors import UwsimError
+from ...errors import UnknownName, UwsimError
 from ...results.atomic_file import write_text
-from .collect import Candidate, Leaderboard
-from .page import Links, ReplayLink, render
+from .board import Candidate, Leaderboard
+from .page import render
+from .task_section import Links, ReplayLink
 from .trials import describe_row, notable_trials
 
 PAGE = "index.html"
 REPLAYS_FOLDER = "replays"
 SITE_FILES = re.compile(r"index\.html|replays/\d+-\d+-(median|worst)\.(html|webp)")
 """The paths of the files that uwsim writes into the folder of a page."""
+SELECTIONS = ("none", "best", "all")
+"""The words that select replays; others are names of submissions."""
 SaveTrial = Callable[[Path, int, Path], object]
 """A function that writes the replay of a trial: result directory, number of the trial, path."""
 
@@ -26,16 +29,24 @@ def choose_replays(board: Leaderboard, selection: str) -> list[tuple[int, int]]:
 
     Args:
         board: the submissions.
-        selection: ``none``, ``best`` for the one with most successes in each task, or ``all``.
+        selection: ``none``, ``best`` for the one with most successes in each task, ``all``, or the
+            name of a submission.
+
+    Raises:
+        UnknownName: there is no submission of that name.
     """
     names = [candidate.name for candidate in board.candidates]
+    if selection not in (*SELECTIONS, *names):
+        raise UnknownName("submission", selection, [*SELECTIONS, *names])
     pairs = []
     for i, task in enumerate(board.tasks):
         members = [names.index(entry.name) for entry in task.entries]
         n_ok = {j: board.candidates[j].submission.tasks[task.name].n_ok for j in members}
         best_index = min(members, key=lambda j: (-n_ok[j], j))
         pairs += [
-            (i, j) for j in members if selection == "all" or (selection, j) == ("best", best_index)
+            (i, j)
+            for j in members
+            if selection in ("all", names[j]) or (selection, j) == ("best", best_index)
         ]
     return pairs
 
