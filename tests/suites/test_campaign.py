@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -75,6 +76,19 @@ def test_shards_of_an_entry_give_the_bytes_of_one_run(
     assert prints(tmp_path / "shared") == prints(entries / "position-p")
 
 
+def test_the_statuses_of_each_task_are_printed_without_an_interval_over_levels(
+    entries: Path, small_suite: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run_suite(small_suite, entries / "nothing", "--algorithm", "nothing", "--seeds", "3")
+    text = capsys.readouterr().out
+    statuses = load(entries / "nothing" / "near-v1").values("status")
+    n_ok = statuses.count("ok")
+    row = next(line.split() for line in text.splitlines() if line.startswith("near-v1 "))
+    assert row[:5] == ["near-v1", "nothing", "6", str(n_ok), f"{100 * n_ok / 6:.0f}"]
+    assert Counter(statuses)["missed"] == 0 or f"{statuses.count('missed')} missed" in text
+    assert "interval" not in text
+
+
 def test_the_short_form_has_one_seed_and_the_middle_level(
     small_suite: Path, tmp_path: Path
 ) -> None:
@@ -86,13 +100,14 @@ def test_the_short_form_has_one_seed_and_the_middle_level(
 
 @pytest.mark.slow
 def test_an_algorithm_that_reads_the_truth_fails_outside_of_its_track(
-    small_suite: Path, tmp_path: Path
+    small_suite: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     program = tmp_path / "reads_truth.py"
     program.write_text(READS_TRUTH)
     for track, statuses in (("a", ("algorithm error",)), ("c", ("missed",))):
         words = ("--algorithm", f"{program}:ReadsTruth", "--tasks", "near", "--short")
-        out = run_suite(small_suite, tmp_path / track, *words, "--track", track)
+        status = 3 if track == "a" else 0
+        out = run_suite(small_suite, tmp_path / track, *words, "--track", track, status=status)
         result = load(out / "near-v1")
         assert result.values("status") == statuses
         assert (out / "code" / "reads_truth.py").read_text() == READS_TRUTH
@@ -100,6 +115,9 @@ def test_an_algorithm_that_reads_the_truth_fails_outside_of_its_track(
         if track == "a":
             text = "topic '/bluerov2/odom' (PATToROSOdom) is not in track 'a'"
             assert text in (result.reason(0, "total") or "")
+            assert f"near-v1: 1 of 1 algorithm error: {result.reason(0, 'total')}" in (
+                capsys.readouterr().out
+            )
             assert result.run.track == ("a", ("virtualCamera",))
 
 
@@ -108,7 +126,7 @@ def test_a_policy_that_observes_the_state_fails_in_a_track_of_sensors(
     small_suite: Path, tmp_path: Path
 ) -> None:
     words = ("--algorithm", "near=position-p", "--short", "--track", "a")
-    result = load(run_suite(small_suite, tmp_path / "a", *words) / "near-v1")
+    result = load(run_suite(small_suite, tmp_path / "a", *words, status=3) / "near-v1")
     assert "'observation' (of the simulation itself) is not in track 'a'" in (
         result.reason(0, "total") or ""
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from collections import Counter
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, chdir, nullcontext
 from dataclasses import dataclass, replace
@@ -14,6 +15,7 @@ import typer
 from rich.table import Table
 
 from ...base.interrupts import raise_on_interrupt
+from ...base.terminal import clean_text
 from ...errors import BadSetting, ErrorCollector
 from ..bench import is_piloted
 from ..options.client_options import ClientOptions
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
     from ...results.result import Result
     from ...runs.executors.executor import OnLevel
     from ...runs.planning.plan import Plan
+    from ...runs.run import Run
     from ...suites.entry import Entry
     from ...suites.submission import Card
     from ...suites.suite import TaskSpec
@@ -138,6 +141,8 @@ def run_entry(context: typer.Context, suite: SuiteArgument, options: SuiteRunOpt
     Each task has a folder in --out with a result, as of `uwsim bench`. submission.json lists their
     hashes, seeds, track, processor and CPU time. Run again, the command continues, and keeps
     finished trials. An algorithm FILE.py:Class is copied into --out/code and run there.
+
+    Exit status 3: the algorithm failed by an error in every row of a task.
     """
     from ...suites.campaign import CODE_FOLDER, copy_code
     from ...suites.entry import Entry, check_settings, choose_algorithms
@@ -238,8 +243,8 @@ def run_prepared(
         entry, runs, outcome.results, name=name, card=options.card.card(), gpu=options.card.gpu
     )
     path = save_submission(submission, out)
-    standard_output().print(result_table(entry, outcome.results))
     print(f"written: {path}; {cpu_time_text(submission.cpu_s)} of CPU time")
+    print_results(entry, runs, outcome.results)
 
 
 def check_pilot(plans: Sequence[tuple[TaskSpec, Plan]], options: SuiteRunOptions) -> None:
@@ -257,25 +262,57 @@ def show_progress(
     return progress(title, total, n_done=n_done, unit="levels", n_parallel=n_parallel)
 
 
-def result_table(entry: Entry, results: Sequence[Result]) -> Table:
-    """Return the table of the successes in each task."""
-    from ...statistics import rate
+def print_results(entry: Entry, runs: Sequence[Run], results: Sequence[Result]) -> None:
+    """Print how the trials of each task ended, and the first reason of each kind of error.
 
+    Raises:
+        RunFailed: an algorithm failed in every row of a task.
+    """
+    from ...runs.failed_algorithms import raise_if_all_failed
+
+    standard_output().print(result_table(entry, results))
+    for task, result in zip(entry.tasks, results, strict=True):
+        for line in describe_errors(result):
+            print(clean_text(f"{task.name}: {line}"))
+    raise_if_all_failed(runs, results)
+
+
+def describe_errors(result: Result) -> list[str]:
+    """Return a line for each status that is an error: the number of rows, and the first reason."""
+    from ...runs.failed_algorithms import ALGORITHM_ERROR
+    from ...runs.trial.status import SIMULATION_ERROR
+
+    statuses = result.values("status")
+    lines = []
+    for status in (ALGORITHM_ERROR, SIMULATION_ERROR):
+        rows = [row for row, cell in enumerate(statuses) if cell == status]
+        if rows:
+            reason = result.reason(rows[0], "total") or "; ".join(result.reasons(rows[0]))
+            lines.append(f"{len(rows)} of {len(statuses)} {status}: {reason}")
+    return lines
+
+
+def result_table(entry: Entry, results: Sequence[Result]) -> Table:
+    """Return the table of the successes in each task.
+
+    There is no interval over all levels: the levels of a seed are not independent.
+    """
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("task", "algorithm"):
         table.add_column(name, no_wrap=True)
-    for name in ("trials", "ok", "rate [%]", "95 % interval"):
+    for name in ("trials", "ok", "success [%]"):
         table.add_column(name, justify="right", no_wrap=True)
+    table.add_column("others")
     for task, result in zip(entry.tasks, results, strict=True):
-        statuses = result.values("status")
-        success = rate(statuses.count("ok"), len(statuses))
-        if success is not None:
-            table.add_row(
-                task.name,
-                result.run.algorithm_label,
-                str(success.n),
-                str(success.successes),
-                f"{100 * success.value:.0f}",
-                f"{100 * success.low:.0f} to {100 * success.high:.0f}",
-            )
+        counts = Counter(str(status) for status in result.values("status"))
+        n, n_ok = counts.total(), counts.pop("ok", 0)
+        failures = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
+        table.add_row(
+            task.name,
+            result.run.algorithm_label,
+            str(n),
+            str(n_ok),
+            f"{100 * n_ok / max(1, n):.0f}",
+            ", ".join(f"{count} {status}" for status, count in failures),
+        )
     return table

@@ -13,9 +13,8 @@ import typer
 from ...base.interrupts import raise_on_interrupt
 from ..options.help_texts import INPUT, OUTPUT, option
 from ..options.options import WorkerOptions
-from ..output.console import standard_output
 from .list import SuiteArgument
-from .run import result_table, show_progress
+from .run import print_results, show_progress
 from .seed_options import SeedOptions, ShardOption
 
 
@@ -83,7 +82,7 @@ def write_reference_table(
             )
             save_submission(submission, out / family)
             print(f"{family}:")
-            standard_output().print(result_table(entry, outcome.results))
+            print_results(entry, runs, outcome.results)
     if shard is not None:
         words = shlex.join(["uwsim", *drop_shard(context.obj)])
         print(f"shard {shard} is finished in {out}; when all are finished: {words}")
