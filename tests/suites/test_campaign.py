@@ -24,6 +24,15 @@ class ReadsTruth:
         node.subscribe("/bluerov2/odom", Odometry, lambda message: None)
 """
 
+MISSPELLS = """
+from uwsim.messages import Odometry, TwistStamped
+
+class Misspells:
+    def start(self, node):
+        node.publisher("/bluerov/twist", TwistStamped)
+        node.subscribe("/bluerov2/odom", Odometry, lambda message: None)
+"""
+
 
 def prints(entry: Path) -> list[dict[str, str]]:
     return [fingerprint(entry / task) for task in TASKS]
@@ -119,6 +128,20 @@ def test_an_algorithm_that_reads_the_truth_fails_outside_of_its_track(
                 capsys.readouterr().out
             )
             assert result.run.track == ("a", ("virtualCamera",))
+
+
+@pytest.mark.slow
+def test_a_misspelt_topic_of_a_users_algorithm_is_a_warning(
+    small_suite: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program = tmp_path / "misspells.py"
+    program.write_text(MISSPELLS)
+    words = ("--algorithm", f"{program}:Misspells", "--tasks", "near", "--short")
+    run_suite(small_suite, tmp_path / "out", *words)
+    warnings = [line for line in capsys.readouterr().err.splitlines() if "warning" in line]
+    assert len(warnings) == 1
+    assert "it publishes on '/bluerov/twist', but it has no subscriber." in warnings[0]
+    assert warnings[0].endswith("Did you mean 'bluerov2/twist'?")
 
 
 @pytest.mark.slow

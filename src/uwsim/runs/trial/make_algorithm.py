@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 
 from ...base.exceptions import RemoteError
 from ...base.interrupts import is_user_interrupt
+from ...base.terminal import warn
 from ...base.tracked_parameters import describe_unread_parameters
 from ...benchmark.plugin_checks import read_parameters
 from ...bus import Algorithm
@@ -13,7 +14,7 @@ from ...errors import NeverStarted, RunFailed, UwsimError
 from ...simulation import Calls, InProcessNode, describe_failure
 from ...simulation.nodes.calls import CallStopped
 from ..own_process.process import ProcessAlgorithm
-from ..planning.plan import Plan
+from ..planning.plan import Plan, Trial
 from .status import to_line
 
 
@@ -75,3 +76,14 @@ def unread_parameters(plan: Plan, algorithm: Algorithm, node: InProcessNode) -> 
             return ()
     note = describe_unread_parameters(plan.algorithm.name, names, names_read)
     return (note,) if note else ()
+
+
+def warn_of_topics(plan: Plan, trial: Trial, node: InProcessNode) -> None:
+    """Print a warning for each topic of a user's algorithm that has no other end.
+
+    It is printed after the first trial of a run, and is not part of the result. Bundled algorithms
+    may offer topics that no measure reads.
+    """
+    if trial.index == 0 and not plan.is_bundled and node.error is None:
+        for sentence in node.describe_unconnected_topics():
+            warn(sentence)

@@ -46,7 +46,12 @@ from .known_corners import known_corners
 from .level_row import LevelRow, TrialEnd, row_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
-from .make_algorithm import make_algorithm, reported_parameters, unread_parameters
+from .make_algorithm import (
+    make_algorithm,
+    reported_parameters,
+    unread_parameters,
+    warn_of_topics,
+)
 from .motion_recorder import MotionRecorder
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
@@ -230,6 +235,7 @@ class TrialExecution:
                 yield self._finish_row(self._failed_row(level, str(error)))
         for part in (self._target_motion, self._error_floor):
             self._facts |= {} if part is None else part.facts
+        warn_of_topics(plan, self._trial, self._node)
         yield TrialEnd(
             facts=self._facts,
             parameters=parameters,
