@@ -91,6 +91,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "scenarios": (
         TASKS | ENGINES | {"checks", "runs", "middleware", "logs", "virtual_sensors", "scenarios"}
     ),
+    "importing": PARTS | {"importing"},
     "editing": TASKS | ENGINES | {"checks", "editing"},
     "envs": TASKS | ENGINES | {"checks", "editing", "runs", "viewer", "envs"},
     "manoeuvres": TASKS | ENGINES | {"analysis", "manoeuvres"},
@@ -122,6 +123,7 @@ MAY_IMPORT: dict[str, set[str]] = {
             "virtual_sensors",
             "manoeuvres",
             "scenarios",
+            "importing",
             "datasets",
             "editing",
             "viewer",

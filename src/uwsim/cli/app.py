@@ -194,6 +194,15 @@ COMMANDS: dict[str, Command] = {
             "uwsim identify dive.csv my_rov.xml --free added_mass,drag,thrust -o fit",
         ),
     ),
+    "import": Command(
+        module="vehicles.import_file",
+        function="import_scene",
+        summary="Import a world or model of Gazebo (SDF) as a scene.",
+        examples=(
+            "uwsim import my_world.sdf -o my_scene",
+            "uwsim import models/my_rov -o my_rov",
+        ),
+    ),
     "info": Command(
         module="info",
         function="info",

@@ -62,8 +62,16 @@ class Document:
     """The xacro expansion of the file."""
 
 
-def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
+def parse(
+    path: Path, *, error: type[FileError] = FileError, allows_undeclared_prefixes: bool = False
+) -> Document:
     """Parse an XML file without DTD, entities and network, and with limits of size and depth.
+
+    Args:
+        path: the file.
+        error: the class of the error.
+        allows_undeclared_prefixes: True to keep prefixes that no ``xmlns`` declares in the names of
+            elements and attributes, as programs do that know no namespaces.
 
     Raises:
         FileError: (or the class ``error``) the file cannot be read or is not well-formed.
@@ -71,19 +79,13 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     diagnostics = Diagnostics(path)
     data = _read_valid_bytes(path, diagnostics)
     diagnostics.check(error)
-    parser = etree.XMLParser(
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        dtd_validation=False,
-        attribute_defaults=False,
-        huge_tree=False,
-        encoding="utf-8" if data[:1] == b"\xff" else None,
-    )
+    parser = _make_parser(data)
     root: etree._Element | None = None
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as problem:
+        if allows_undeclared_prefixes and _has_undeclared_prefixes_alone(parser):
+            return _parse_with_prefixes(path, data)
         messages: dict[int, str] = {}  # by line: the first error causes the others of its line
         for entry in parser.error_log:
             messages.setdefault(entry.line, _syntax_message(entry, data))
@@ -95,6 +97,29 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
         diagnostics.error(None, f"not well-formed XML: {str(problem)[:200]}")
     diagnostics.check(error)
     assert root is not None
+    return Document(path, root, root.getroottree().docinfo.internalDTD is not None)
+
+
+def _make_parser(data: bytes, *, recover: bool = False) -> etree.XMLParser:
+    return etree.XMLParser(
+        recover=recover,
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        dtd_validation=False,
+        attribute_defaults=False,
+        huge_tree=False,
+        encoding="utf-8" if data[:1] == b"\xff" else None,
+    )
+
+
+def _has_undeclared_prefixes_alone(parser: etree.XMLParser) -> bool:
+    return all(entry.type_name == "NS_ERR_UNDEFINED_NAMESPACE" for entry in parser.error_log)
+
+
+def _parse_with_prefixes(path: Path, data: bytes) -> Document:
+    """Parse a file that is well-formed but for prefixes that it does not declare."""
+    root = etree.fromstring(data, _make_parser(data, recover=True))
     return Document(path, root, root.getroottree().docinfo.internalDTD is not None)
 
 

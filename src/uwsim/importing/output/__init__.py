@@ -1,0 +1,1 @@
+"""Writing of an imported world: scene file, robot files, hydrodynamics files, meshes."""

@@ -1,0 +1,1 @@
+"""Reading of SDF, the format of Gazebo: files, included models, frames."""
