@@ -112,10 +112,22 @@ def test_a_changed_file_is_read_again(tmp_path: Path) -> None:
     assert read_model(path, name="x").n_triangles == 2
 
 
+FACES = b"coordIndex [ 0 1 2 -1 ] coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] }"
+VRML_SAMPLES = {
+    ".wrl": b"#VRML V2.0 utf8\nShape { geometry IndexedFaceSet { " + FACES + b" } }\n",
+    ".x3dv": b"#X3D V3.2 utf8\nShape { geometry IndexedFaceSet { " + FACES + b" } }\n",
+    ".x3d": b"<X3D> <Scene> <Shape> <IndexedFaceSet coordIndex='0 1 2 -1'> <Coordinate "
+    b"point='0 0 0 1 0 0 0 1 0'/> </IndexedFaceSet> </Shape> </Scene> </X3D>",
+}
+"""A file of each format that trimesh cannot write."""
+
+
 @pytest.mark.parametrize("suffix", MESH_FORMATS)
 def test_broken_files_are_refused_cleanly(tmp_path: Path, suffix: str) -> None:
     if suffix == ".gltf":
         whole = b'{"asset":{"version":"2.0"},"buffers":[{"uri":"http://nowhere.invalid/x.bin"}]}'
+    elif suffix in VRML_SAMPLES:
+        whole = VRML_SAMPLES[suffix]
     else:
         whole = written(tmp_path, suffix).read_bytes()
     draw = random.Random(suffix)

@@ -1,4 +1,4 @@
-"""The reader of GLB, OBJ, STL, PLY and DAE files by trimesh, with their images."""
+"""The reader of GLB, OBJ, STL, PLY, DAE, VRML and X3D files, with their images."""
 
 from __future__ import annotations
 
@@ -35,10 +35,12 @@ from .mtl_materials import read_mtl_materials
 from .obj_lines import find_invalid_line
 from .references import References
 
-MESH_FORMATS = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
+MESH_FORMATS = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae", ".wrl", ".x3d", ".x3dv")
 """The formats that are read without an external program."""
 GLTF_FORMATS = (".glb", ".gltf")
 """The suffixes of glTF files."""
+VRML_FORMATS = (".wrl", ".x3d", ".x3dv")
+"""The suffixes of VRML and X3D files."""
 
 MAX_TRIANGLES = 4_000_000
 """The greatest number of triangles of a model."""
@@ -183,7 +185,8 @@ def _is_text(data: bytes, suffix: str) -> bool:
     """Return whether a format takes far more memory to read than to store."""
     if suffix == ".stl":
         return not _is_binary_stl(data)
-    return suffix in (".obj", ".dae", ".gltf", ".mtl") or b"format ascii" in data[:200]
+    is_text = suffix in (".obj", ".dae", ".gltf", ".mtl", *VRML_FORMATS)
+    return is_text or b"format ascii" in data[:200]
 
 
 def _references(
@@ -221,6 +224,10 @@ def _parts(
                 from . import ply_file
 
                 posed_parts, remarks = ply_file.read_parts(to_utf8(data, suffix), references), ()
+            elif suffix in VRML_FORMATS:
+                from .scene_graphs.vrml_file import read_parts as read_vrml_parts
+
+                posed_parts, remarks = read_vrml_parts(data, suffix, references)
             else:
                 posed_parts, remarks = _read_by_trimesh(data, suffix, references), ()
             if is_gltf:

@@ -1,4 +1,4 @@
-"""Conversion of OpenSceneGraph, VRML and 3DS files by the program `osgconv`."""
+"""Conversion of OpenSceneGraph and 3DS files by the program `osgconv`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 from ...base.files.scratch import scratch_folder
 from ...errors import AssetError
 
-OSGCONV_FORMATS = (".osg", ".osgt", ".osgb", ".ive", ".wrl", ".3ds")
+OSGCONV_FORMATS = (".osg", ".osgt", ".osgb", ".ive", ".3ds")
 """The formats that need `osgconv`."""
 
 TIMEOUT = 120.0

@@ -159,7 +159,9 @@ class FlatModel:
         child_from_outer = self.links[child].model_from_link.inverse()
         child_from_joint = child_from_outer @ outer_from_model @ model_from_joint
         frame = joint.axis.expressed_in
-        model_from_axis = frames.model_from(frame, joint.place.line) if frame else model_from_joint
+        model_from_axis = (
+            frames.model_from_frame(frame, joint.place.line) if frame else model_from_joint
+        )
         child_from_axis = child_from_outer @ outer_from_model @ model_from_axis
         axis = product(child_from_axis.rotation, list(joint.axis.xyz))
         return FlatJoint(

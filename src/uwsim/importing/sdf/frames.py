@@ -60,7 +60,7 @@ class ModelFrames:
         """The frames of the nested models, by their names; those of merged ones are not names."""
         return self._child_frames
 
-    def model_from(self, name: str, line: int, chain: tuple[str, ...] = ()) -> Pose:
+    def model_from_frame(self, name: str, line: int, chain: tuple[str, ...] = ()) -> Pose:
         """Return the pose of a named frame in the frame of the model.
 
         Raises:
@@ -77,14 +77,14 @@ class ModelFrames:
     def resolve(self, pose: FramedPose, default_frame: str, chain: tuple[str, ...] = ()) -> Pose:
         """Return a pose in the frame of the model."""
         frame = pose.relative_to or default_frame
-        return self.model_from(frame, pose.line, chain) @ pose.pose
+        return self.model_from_frame(frame, pose.line, chain) @ pose.pose
 
     def nested_pose(self, name: str, line: int, chain: tuple[str, ...] = ()) -> Pose:
         """Return the pose of a nested model in the frame of the model."""
         frames = self._child_frames[name]
         pose = self.resolve(frames.model.pose, MODEL_FRAME, chain)
         placement_frame = frames.model.placement_frame
-        return pose @ frames.model_from(placement_frame, line).inverse()
+        return pose @ frames.model_from_frame(placement_frame, line).inverse()
 
     def _find(self, name: str, line: int, chain: tuple[str, ...]) -> Pose:
         if (entry := self._entries.get(name)) is not None:
@@ -92,10 +92,10 @@ class ModelFrames:
         head, _, tail = name.partition(SEPARATOR)
         if head in self._child_frames:
             pose = self.nested_pose(head, line, chain)
-            return pose @ self._child_frames[head].model_from(tail, line) if tail else pose
+            return pose @ self._child_frames[head].model_from_frame(tail, line) if tail else pose
         for key, frames in self._child_frames.items():
             if frames.model.is_merged and frames.has_frame(name):
-                return self.nested_pose(key, line, chain) @ frames.model_from(name, line)
+                return self.nested_pose(key, line, chain) @ frames.model_from_frame(name, line)
         diagnostics = Diagnostics(self.model.place.file)
         diagnostics.report_unknown(
             line,  # type: ignore[arg-type]  # a line is a location, too

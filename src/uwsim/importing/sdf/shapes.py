@@ -22,7 +22,7 @@ from .values import (
 )
 
 UNREAD_SHAPES = {
-    "heightmap": "height maps are not imported; make a terrain of it (docs/import.md)",
+    "heightmap": "height maps are not imported; see <u:bathymetry> in docs/bathymetry.md",
     "image": "extruded images are not imported",
     "polyline": "extruded polylines are not imported",
     "empty": "it has no geometry",
