@@ -172,6 +172,7 @@ def test_a_saved_state_continues_with_the_same_bytes(load: Load) -> None:
     assert simulation.save() == after
 
 
+@pytest.mark.slow
 def test_a_tether_comes_to_rest_on_the_ground_and_not_in_a_vehicle(load: Load) -> None:
     floor = (
         "<object> <name>terrain</name> <file>terrain/pool/pool.glb</file>"
