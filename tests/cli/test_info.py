@@ -266,3 +266,30 @@ def test_where_sensors_and_lamps_point_is_shown(capsys: pytest.CaptureFixture[st
     assert points["headlight"][1].startswith("shines forward")
     assert all(words in text for _, words in points.values())
     assert not any("'altimeter'" in each for each in found["warnings"])
+
+
+def test_a_benchmark_has_its_scene_levels_measures_and_outcome(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    text = said(capsys, "station-keeping")
+    content = json.loads(said(capsys, "station-keeping", "--json"))
+    assert content["scene"] == "open-water-scene"
+    assert "uwsim info open-water-scene" in text
+    assert f"levels ({content['n_levels']})" in text
+    assert content["n_levels"] == len(content["levels"]["current"]) > 2
+    assert content["measures"]["offset"] == "positionError"
+    assert set(content["failures"]) == {"left"}
+    assert f"ok: {content['success']}" in text
+    assert "positionError" in content["observations"]["bluerov2"]
+
+
+@pytest.mark.parametrize(
+    "name", [n for n in bundled_files("benchmarks") if n in {"valve", "relay"}]
+)
+def test_a_benchmark_of_several_parameters_lists_each(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    content = json.loads(said(capsys, name, "--json"))
+    numbers = [len(values) for values in content["levels"].values()]
+    assert len(numbers) == 2
+    assert content["n_levels"] == numbers[0] * numbers[1]

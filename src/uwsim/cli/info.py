@@ -11,7 +11,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from ..assets.bundled import scene_file
+from ..assets.bundled import benchmark_file, scene_file
 from ..base.terminal import clean_text
 from ..checks import check_file
 from ..errors import ErrorCollector
@@ -49,6 +49,8 @@ def info(
 ) -> None:
     """Show the content of a scene: vehicles, cameras, sensors, topics, services, water, floor.
 
+    For the name of a bundled benchmark: its scene, levels, measures, success and failures.
+
     Positions are in the file's frame, as in the file and on topics, in metres and radians. The
     floor is the surface straight below each vehicle's origin. Elements that are read and not
     simulated are listed last.
@@ -57,8 +59,13 @@ def info(
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting, xacro_arguments
     from ..simulation import Simulation
+    from .output.benchmark_inventory import benchmark_inventory, is_benchmark
     from .output.inventory import inventory
 
+    if is_benchmark(scene):
+        benchmark = benchmark_inventory(benchmark_file(scene))
+        print_parts(benchmark, benchmark_parts(benchmark), as_json=as_json)
+        return
     folders = tuple(data_path or ())
     path = scene_file(scene, folders)
     errors = ErrorCollector()
@@ -78,12 +85,42 @@ def info(
         )
     finally:
         simulation.close()
+    print_parts(content, render_parts(content), as_json=as_json)
+
+
+def print_parts(content: Fields, parts: Iterable[RenderableType], *, as_json: bool) -> None:
+    """Print a content as JSON or as text."""
     if as_json:
         print(json.dumps(content, indent=1))
         return
     console = standard_output(COLUMNS)
-    for part in render_parts(content):
+    for part in parts:
         console.print(part)
+
+
+def benchmark_parts(content: Fields) -> Iterator[RenderableType]:
+    """Yield the sections of the output for a benchmark."""
+    yield Text(clean_text(str(content["file"])), style="bold")
+    yield from _section(
+        "scene", [f"{content['scene']}; its vehicles and topics: uwsim info {content['scene']}"]
+    )
+    yield from _section("algorithm", [content["algorithm"]])
+    levels = [
+        f"{name}: {', '.join(values)}" + _unit_text(content["units"].get(name, "1"))
+        for name, values in content["levels"].items()
+    ]
+    yield from _section(f"levels ({content['n_levels']})", levels)
+    measures = [f"{name} ({kind})" for name, kind in content["measures"].items()]
+    yield from _section("measures", measures)
+    yield from _section("score, lower is better", [content["score"]])
+    if content["success"]:
+        failures = [f"{status}: {text}" for status, text in content["failures"].items()]
+        yield from _section("outcome", [f"ok: {content['success']}", *failures])
+    if content["varies"]:
+        yield from _section("differs from seed to seed, besides the scene", content["varies"])
+    observations = [f"{name}: {', '.join(v)}" for name, v in content["observations"].items()]
+    if observations:
+        yield from _section("observation of a policy, by vehicle", observations)
 
 
 def render_parts(content: Fields) -> Iterator[RenderableType]:
@@ -110,8 +147,11 @@ def render_parts(content: Fields) -> Iterator[RenderableType]:
 
 
 def _variation(variation: Fields) -> str:
-    unit = "" if variation["unit"] in ("", "1") else f" {variation['unit']}"
-    return f"{variation['path']}: {variation['drawn_from']}{unit}"
+    return f"{variation['path']}: {variation['drawn_from']}{_unit_text(variation['unit'])}"
+
+
+def _unit_text(unit: str) -> str:
+    return "" if unit in ("", "1") else f" {unit}"
 
 
 def _tether(tether: Fields) -> str:
