@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.support.opened import open_scene
+from uwsim.acoustics import MATERIALS
 from uwsim.base.geodesy import Geodetic
 from uwsim.base.geometry import Pose
 from uwsim.bathymetry.bathymetry import BathymetrySpec
@@ -16,7 +17,7 @@ from uwsim.bathymetry.chart import Chart
 from uwsim.bathymetry.chart_files import write_chart
 from uwsim.bathymetry.coordinates import LOCAL_SYSTEM, Projection, orthographic, parse_system
 from uwsim.bathymetry.height_grid import HeightGrid
-from uwsim.errors import AssetError, SceneError
+from uwsim.errors import AssetError, SceneError, UwsimError
 from uwsim.model.collision.terrain_shapes import terrain_shapes
 from uwsim.scene.reader import read_scene
 
@@ -184,3 +185,66 @@ def test_a_chart_on_earth_needs_a_scene_on_earth_and_limits_within_it(tmp_path: 
     exact = BathymetrySpec(crop=(-2.0, -3.0, 2.0, 3.0)).read(file, name="bay.asc", origin=ORIGIN)
     assert exact.shape == (13, 9)
     assert exact.heights[0, 0] == np.float32(wavy(-2.0, -3.0))
+
+
+SLOPE = """<UWSimScene xmlns:u="urn:uwsim:1">
+  <vehicle> <name>rov</name> <file>data/vehicles/bluerov2_heavy.urdf</file>
+    <position> <x>0</x> <y>0</y> <z>-3</z> </position>
+    <orientation> <r>0</r> <p>0</p> <y>0</y> </orientation>
+    <u:dynamics>bluerov2_heavy</u:dynamics> </vehicle>
+  <object> <name>floor</name> <file>bay.asc</file>
+    <position> <x>0</x> <y>0</y> <z>0</z> </position>
+    <orientation> <r>0</r> <p>0</p> <y>0</y> </orientation>
+    <u:bathymetry> <u:sediment> <u:file>map.asc</u:file> <u:materials>{materials}</u:materials>
+    </u:sediment> </u:bathymetry> </object>
+  {boxes}
+</UWSimScene>"""
+BOX = """<object> <name>{name}</name> <file>objects/blackbox_uib_trimesh.osg</file>
+    <position> <x>{x}</x> <y>0</y> <z>0</z> </position>
+    <orientation> <r>0</r> <p>0</p> <y>0</y> </orientation>
+    <physics> <mass>15</mass> <collisionShapeType>box</collisionShapeType>
+      <u:volume>0.002</u:volume> </physics>
+    <u:onFloor> <u:alignToSlope>1</u:alignToSlope> </u:onFloor> </object>"""
+
+
+def write_slope(folder: Path, materials: str = "silt rock") -> Path:
+    """Write a floor that falls by 0.4 towards the north: silt in the west, rock in the east."""
+    axis = np.arange(-10.0, 10.5, 1.0)
+    heights = np.tile(-10.0 - 0.4 * axis[:, None], (1, len(axis))).astype(np.float32)
+    codes = np.tile(np.where(axis < 0.0, 0.0, 1.0), (len(axis), 1)).astype(np.float32)
+    for name, values in (("bay", heights), ("map", codes)):
+        chart = Chart(x=-10.0, y=-10.0, step_x=1.0, step_y=1.0, heights=values)
+        write_chart(folder / f"{name}.asc", chart)
+    boxes = "".join(BOX.format(name=f"box{x}", x=x) for x in (-3, 3))
+    file = folder / "slope.xml"
+    file.write_text(SLOPE.format(materials=materials, boxes=boxes))
+    return file
+
+
+def test_a_map_of_sediments_sets_echoes_and_friction(tmp_path: Path) -> None:
+    """On a slope of 0.4, steel slides on silt (0.2) and rests on rock (0.7)."""
+    simulation = open_scene(read_scene(write_slope(tmp_path)), timestep=0.005)
+    rays = simulation.world.rays
+    down = np.array([[0.0, 0.0, -1.0]])
+    for x, name in ((-3.3, "silt"), (4.6, "rock")):
+        hits = rays.cast(Pose(np.array([x, 5.0, 0.0]), np.eye(3)), down, 50.0)
+        assert rays.materials[hits.surface[0]] == MATERIALS[name]
+        part = simulation.world.scenery.part_names[rays.part_ids[hits.surface[0]]]
+        assert part == "floor"
+    poses = simulation.world.engine.poses
+    starts = [poses.object(index).position[1] for index in (1, 2)]
+    simulation.advance(2.0)
+    on_silt, on_rock = (
+        poses.object(index).position[1] - start for index, start in zip((1, 2), starts, strict=True)
+    )
+    assert on_silt > 0.5
+    assert abs(on_rock) < 0.05
+    simulation.close()
+
+
+def test_a_wrong_material_or_code_is_one_line(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="has 'sillt'; expected names of clay, silt"):
+        read_scene(write_slope(tmp_path, "sillt rock"))
+    scene = read_scene(write_slope(tmp_path, "silt"))
+    with pytest.raises(UwsimError, match=r"x 0.5, y -9.5 m of the scene is 1; expected"):
+        open_scene(scene)

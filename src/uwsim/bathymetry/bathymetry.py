@@ -38,6 +38,7 @@ from .coordinates import parse_system
 from .grid_cache import cached_grid
 from .height_grid import HeightGrid, Heights
 from .resampling import resample
+from .sediment import SedimentSpec, find_classes
 
 MAX_HEIGHT = 12_000.0
 """The greatest height or depth [m]."""
@@ -62,6 +63,8 @@ class BathymetrySpec(Spec):
     coordinates: str = element(namespaced=True, default="")
     """The coordinate system of a file that does not state it, such as ``EPSG:32631``; without both,
     coordinates are metres east and north of the scene's origin."""
+    sediment: SedimentSpec | None = element(namespaced=True, default=None)
+    """The map of materials; without it the whole floor has the `<u:acousticMaterial>`, or sand."""
 
     def errors(self) -> Iterator[str]:
         """Yield errors of limits that are no rectangle."""
@@ -69,9 +72,17 @@ class BathymetrySpec(Spec):
             yield f"<u:crop> has {len(self.crop)} numbers; expected west, south, east and north"
         elif self.crop and not (self.crop[0] < self.crop[2] and self.crop[1] < self.crop[3]):
             yield "<u:crop> is empty; expected west below east and south below north"
+        if self.sediment is not None:
+            yield from self.sediment.errors()
 
     def read(
-        self, path: Path, *, name: str, origin: Geodetic | None, shift: Triple = ZERO
+        self,
+        path: Path,
+        *,
+        name: str,
+        origin: Geodetic | None,
+        shift: Triple = ZERO,
+        sediment_path: Path | None = None,
     ) -> HeightGrid:
         """Read the height grid in W, from the cache if possible.
 
@@ -80,14 +91,19 @@ class BathymetrySpec(Spec):
             name: its name in the scene.
             origin: the position on Earth of the origin of W; None: the scene has none.
             shift: the displacement of the chart in W [m].
+            sediment_path: the file of the map of materials; None without one.
 
         Raises:
             AssetError: the file is invalid, or does not fit the scene.
         """
-        key = path, name, self, origin, shift
+        key = path, name, self, origin, shift, sediment_path
 
         def build(data: bytes) -> HeightGrid:
-            grid = self._build(path, data, origin)
+            grid = self.fit(self._read_chart(path, data), str(path), origin)
+            if self.sediment is not None and sediment_path is not None:
+                chart, names = self._read_chart(sediment_path), self.sediment.names
+                classes = find_classes(chart, str(sediment_path), grid, origin, len(names))
+                grid = replace(grid, classes=classes)
             x, y, z = shift
             if not any(shift):
                 return grid
@@ -95,12 +111,15 @@ class BathymetrySpec(Spec):
             return replace(grid, west=grid.west + x, south=grid.south + y, heights=heights)
 
         try:
-            return cached_grid(key, partial(_read_files, path, name), build)
+            return cached_grid(key, partial(_read_files, path, name, sediment_path), build)
         except OSError as error:
             raise AssetError(f"{path}: cannot be read ({error.strerror or error}).") from error
 
-    def _build(self, path: Path, data: bytes, origin: Geodetic | None) -> HeightGrid:
-        return self.fit(read_chart(path, data), str(path), origin)
+    def _read_chart(self, path: Path, data: bytes | None = None) -> Chart:
+        chart = read_chart(path, data)
+        if self.coordinates and chart.system.kind == "local":
+            return chart.with_system(parse_system(self.coordinates))
+        return chart
 
     def fit(self, chart: Chart, source: str, origin: Geodetic | None) -> HeightGrid:
         """Return the height grid in W of a chart; see `read`.
@@ -110,8 +129,6 @@ class BathymetrySpec(Spec):
             source: its file, for errors.
             origin: the position on Earth of the origin of W; None: the scene has none.
         """
-        if self.coordinates and chart.system.kind == "local":
-            chart = chart.with_system(parse_system(self.coordinates))
         _check_heights(chart, source)
         if self.positive == "down":
             chart = replace(chart, heights=-chart.heights)
@@ -126,11 +143,15 @@ class BathymetrySpec(Spec):
         return replace(grid, heights=fill_holes(grid.heights))
 
 
-def _read_files(path: Path, name: str) -> bytes:
-    """Read the chart and the file with its coordinate system, so that they are recorded."""
+def _read_files(path: Path, name: str, sediment_path: Path | None) -> bytes:
+    """Read the files and those with their coordinate systems, so that they are recorded."""
     data = read_bytes(path, name=name)
-    with suppress(OSError, UwsimError):
-        read_bytes(path.with_suffix(".prj"))
+    if sediment_path is not None:
+        read_bytes(sediment_path)
+    for file in (path, sediment_path):
+        with suppress(OSError, UwsimError):
+            if file is not None:
+                read_bytes(file.with_suffix(".prj"))
     return data
 
 

@@ -10,10 +10,11 @@ import numpy as np
 from ..acoustics import MATERIALS, Material, MaterialName
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import determinant, product, transform_points
+from ..bathymetry.height_grid import HeightGrid
 from ..rays import RayScene, Surface
 from ..scene.spec import SceneSpec
 from .parts import Part
-from .terrain import height_rays
+from .terrain import floor_materials, height_rays
 
 Owner = tuple[int | None, str, int | None]
 """The vehicle index and the link of a body; or None, an empty text and the object index; or None,
@@ -35,7 +36,7 @@ class RayBodies:
         self, scene: SceneSpec, parts: Sequence[Part], fixed_poses: Mapping[int, Pose]
     ) -> None:
         self._parts = [part for part in parts if not part.is_hidden and part.grid is None]
-        self._charts = [(part.id, part.grid) for part in parts if part.grid is not None]
+        self._charts: list[tuple[int, HeightGrid]] = []  # with the surface index of the class 0
         self._fixed_poses = fixed_poses
         names = {part.id: _material(scene, part) for part in parts if not part.is_hidden}
         owners = {
@@ -44,11 +45,20 @@ class RayBodies:
             if p.object is None
         }
         numbers = range(max(names, default=0) + 1)
-        self.materials: tuple[Material, ...] = tuple(
-            MATERIALS[names.get(number, "sand")] for number in numbers
-        )
+        materials = [MATERIALS[names.get(number, "sand")] for number in numbers]
+        part_ids = list(numbers)
+        for part in parts:
+            if part.grid is None or part.object is None:
+                continue
+            self._charts.append((len(materials), part.grid))
+            floor = floor_materials(scene.objects[part.object])
+            materials += [MATERIALS[name] for name in floor]
+            part_ids += [part.id] * len(floor)
+        self.materials: tuple[Material, ...] = tuple(materials)
         """The acoustic material of each surface, by the surface's index."""
-        self.vehicles = tuple(owners.get(number, "") for number in numbers)
+        self.part_ids: tuple[int, ...] = tuple(part_ids)
+        """The number of the part of each surface, by the surface's index."""
+        self.vehicles = tuple(owners.get(number, "") for number in part_ids)
         """The name of the vehicle or tether of each surface, by its index; empty for an object."""
 
     @property

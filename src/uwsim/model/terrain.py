@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
+from ..acoustics import MaterialName
 from ..base.geometry import Array
 from ..bathymetry.height_grid import HeightGrid
 from ..rays import HeightRays
@@ -29,7 +31,25 @@ def height_grid(
     path = find_file(spec.file, scene.path, data_path)
     world_from_object = scene.world_from_localized @ spec.localized_from_object
     x, y, z = (world_from_object.position - scene.world_from_localized.position).tolist()
-    return spec.bathymetry.read(path, name=spec.file, origin=scene.earth_origin, shift=(x, y, z))
+    sediment = spec.bathymetry.sediment
+    sediment_path = None
+    if sediment is not None:
+        sediment_path = find_file(sediment.file, scene.path, data_path)
+    return spec.bathymetry.read(
+        path,
+        name=spec.file,
+        origin=scene.earth_origin,
+        shift=(x, y, z),
+        sediment_path=sediment_path,
+    )
+
+
+def floor_materials(spec: ObjectSpec) -> tuple[MaterialName, ...]:
+    """Return the materials of a chart, by the class of a cell."""
+    assert spec.bathymetry is not None
+    if spec.bathymetry.sediment is None:
+        return (spec.acoustic_material or "sand",)
+    return tuple(cast("MaterialName", name) for name in spec.bathymetry.sediment.names)
 
 
 def height_grids(scene: SceneSpec, data_path: tuple[Path, ...]) -> Mapping[int, HeightGrid]:

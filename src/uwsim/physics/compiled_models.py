@@ -112,7 +112,7 @@ def _add(value: object, parts: list[bytes]) -> None:
 
 def _add_shapes(shapes: Sequence[CollisionShape], parts: list[bytes]) -> None:
     """Append the content of thousands of shapes, column by column."""
-    _add(tuple(f"{shape.kind} {shape.size}" for shape in shapes), parts)
+    _add(tuple(f"{shape.kind} {shape.size} {shape.friction}" for shape in shapes), parts)
     columns: list[list[Array]] = [
         [shape.body_from_shape.position for shape in shapes],
         [shape.body_from_shape.rotation for shape in shapes],

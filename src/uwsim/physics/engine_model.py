@@ -229,6 +229,9 @@ def _add_shapes(
             friction=list(FRICTION),
             solimp=list(SOFTNESS),
         )
+        if shape.friction is not None:
+            geom.friction = [shape.friction, *FRICTION[1:]]
+            geom.priority = 1  # else a contact has the greater friction of its two shapes
         set_size(spec, geom, f"{name}/{i}", shape)
 
 

@@ -22,6 +22,7 @@ from ...assets.dock_shape import keep_inner_sides
 from ...assets.mesh import Model
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import product, rotate, transform_points
+from ...bathymetry.sediment import FRICTION
 from ...scene.object import ObjectSpec, PhysicsSpec
 from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses
@@ -30,7 +31,7 @@ from ...scene.vehicle import VehicleSpec
 from ..body_names import object_body, vehicle_body
 from ..parts import object_models, placed_model, visual_model
 from ..resolved_scene import ResolvedScene
-from ..terrain import height_grid
+from ..terrain import floor_materials, height_grid
 from .fixed_mesh import FixedMesh
 from .ground import triangles_of
 from .shapes import (
@@ -88,7 +89,10 @@ def collision_shapes(
         spec = scene.objects[index]
         if (grid := height_grid(scene, spec, data_path)) is not None:
             world_from_object = scene.world_from_localized @ spec.localized_from_object
-            shapes[object_body(index)] = terrain_shapes(grid, world_from_object.inverse())
+            frictions = [FRICTION.get(name) for name in floor_materials(spec)]
+            shapes[object_body(index)] = terrain_shapes(
+                grid, world_from_object.inverse(), frictions
+            )
             continue
         model, object_from_mesh = _contact_model(scene, spec, physics, load)
         shapes[object_body(index)] = shapes_of(

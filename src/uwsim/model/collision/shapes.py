@@ -78,6 +78,9 @@ class CollisionShape:
     """The corners of a hull, in the shape's frame, (n, 3) [m]."""
     heights: Array | None = None
     """The heights of a height field above its lowest, (rows, columns) [m]; each row is along x."""
+    friction: float | None = None
+    """The coefficient of sliding friction, which applies in all contacts [1]; None: that of the
+    engine."""
 
 
 def shapes_of(

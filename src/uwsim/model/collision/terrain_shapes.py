@@ -9,6 +9,7 @@ contacts.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -21,8 +22,17 @@ MAX_TILES = 900
 """The greatest number of tiles of one chart."""
 
 
-def terrain_shapes(grid: HeightGrid, object_from_world: Pose) -> tuple[CollisionShape, ...]:
-    """Return the tiles of a height grid in W, in the frame of its object."""
+def terrain_shapes(
+    grid: HeightGrid, object_from_world: Pose, frictions: Sequence[float | None] = (None,)
+) -> tuple[CollisionShape, ...]:
+    """Return the tiles of a height grid in W, in the frame of its object.
+
+    Args:
+        grid: the height grid.
+        object_from_world: the pose of W in the frame of the object.
+        frictions: the friction of each class of cells; None: that of the engine. A tile has that
+            of its commonest class.
+    """
     n_cells = tile_cells(grid)
     rows, columns = grid.shape
     shapes = []
@@ -48,9 +58,18 @@ def terrain_shapes(grid: HeightGrid, object_from_world: Pose) -> tuple[Collision
                     body_from_shape=object_from_world @ world_from_shape,
                     size=(half_x, half_y, max(high - low, MIN_HEIGHT_RANGE), FIELD_DEPTH),
                     heights=heights.astype(np.float64) - low,
+                    friction=frictions[_commonest_class(grid, i, j, n_cells)],
                 )
             )
     return tuple(shapes)
+
+
+def _commonest_class(grid: HeightGrid, row: int, column: int, n_cells: int) -> int:
+    """Return the commonest class of the cells of a tile; the least of equally common ones."""
+    if grid.classes is None:
+        return 0
+    part = grid.classes[row : row + n_cells, column : column + n_cells]
+    return int(np.argmax(np.bincount(part.ravel())))
 
 
 def tile_cells(grid: HeightGrid) -> int:

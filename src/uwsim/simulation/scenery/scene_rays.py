@@ -52,6 +52,12 @@ class SceneRays:
             *(MATERIALS["sand"] for _ in heaps),
         )
         """The acoustic material of each surface, by the surface's index."""
+        first_heap_id = max(self._bodies.part_ids) + 1
+        self.part_ids: tuple[int, ...] = (
+            *self._bodies.part_ids,
+            *(first_heap_id + index for index in range(len(heaps))),
+        )
+        """The number in segmentation images of each surface, by the surface's index."""
         self.vehicles: tuple[str, ...] = (*self._bodies.vehicles, *("" for _ in heaps))
         """The name of the vehicle or tether of each surface, by its index; empty for none."""
 

@@ -35,5 +35,6 @@ class SceneSegmenter:
     ) -> npt.NDArray[np.uint16]:
         """Return the number of the part that is visible at each pixel, (h, w); 0: none."""
         if self._is_blind:
-            return cast_surfaces(self._rays, world_from_camera, intrinsics)
+            surfaces = cast_surfaces(self._rays, world_from_camera, intrinsics)
+            return np.array(self._rays.part_ids, np.uint16)[surfaces]
         return self._scenery.segmentation(world_from_camera, intrinsics)
