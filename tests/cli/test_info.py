@@ -292,4 +292,6 @@ def test_a_benchmark_of_several_parameters_lists_each(
     content = json.loads(said(capsys, name, "--json"))
     numbers = [len(values) for values in content["levels"].values()]
     assert len(numbers) == 2
+    assert content["units"]["current"] == "m/s"
+    assert set(content["units"]) == set(content["levels"])
     assert content["n_levels"] == numbers[0] * numbers[1]

@@ -44,7 +44,7 @@ def benchmark_inventory(path: Path) -> Fields:
         "n_levels": len(levels),
         "levels": {name: list(texts) for name, texts in values.items()},
         "units": {
-            updater.parameter_name: updater.parameter_unit for updater in chain(spec.scene_updater)
+            updater.parameter: updater.parameter_unit for updater in chain(spec.scene_updater)
         },
         "measures": {m.name: kinds.get(type(m), type(m).__name__) for m in spec.measures},
         "score": " ".join(spec.function.text.split()),
