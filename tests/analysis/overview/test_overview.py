@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +12,7 @@ from pathlib import Path
 import matplotlib as mpl
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.text import Text
 from PIL import Image
 
 from tests.support.compared_results import Values, make_result
@@ -26,10 +28,17 @@ from uwsim.analysis.overview import (
 )
 from uwsim.analysis.overview.ranks import compare_algorithms, success_of
 from uwsim.analysis.overview.tasks import OverviewTask
-from uwsim.analysis.plots.success_overview import COLOUR_MAP, INK, _luminance, success_overview
+from uwsim.analysis.plots import level_label
+from uwsim.analysis.plots.success_overview import (
+    COLOUR_MAP,
+    INK,
+    OverviewRow,
+    _luminance,
+    success_overview,
+)
 from uwsim.cli import main
 from uwsim.errors import ResultError
-from uwsim.results.result import Result
+from uwsim.results.result import Column, Result
 from uwsim.results.result_file import save
 from uwsim.statistics import rate
 
@@ -98,6 +107,46 @@ def test_a_parameter_with_one_value_is_left_out() -> None:
     assert [(r.parameter, r.outer_level, r.levels) for r in rows] == [
         ("current [m/s]", "", ("0.0", "0.1", "0.2", "0.3"))
     ]
+
+
+def test_a_task_with_one_level_states_all_its_parameters() -> None:
+    """Which parameter is the difficulty is not known then: the first often is."""
+    result = grasping_result()
+    rows = result.rows[:1]
+    one = replace(result, rows=rows, missing_values=(), remarks=())
+    entry = Entry(name="grasp", source="x", result=one, sha256="0" * 64)
+    (row,) = overview_rows([OverviewTask(name="grasp", entries=(entry,))])
+    assert (row.parameter, row.outer_level, row.levels) == ("fog 0 m⁻¹, current 0 m/s", "", ("",))
+
+
+def test_noise_of_the_water_is_not_that_of_a_camera() -> None:
+    water = Column(name="noise", kind="level", unit="dB re 1 uPa2/Hz")
+    assert level_label(water) == "noise level of the water [dB re 1 µPa²/Hz]"
+    assert level_label(Column(name="noise", kind="level", unit="1")) == "camera noise [1]"
+
+
+def test_titles_of_narrow_maps_do_not_overlap() -> None:
+    names = [
+        "baseline-1 (baseline-1)",
+        "an-entry-with-a-very-long-name",
+        "baseline-3",
+        "WWWWWWWWWW",
+    ]
+    row = OverviewRow(task="hover", parameter="current 0 m/s", outer_level="", levels=("",),
+                      rates={name: (rate(1, 1),) for name in names})  # fmt: skip
+    figure = success_overview([row], names)
+    figure.draw_without_rendering()
+    boxes = [
+        text.get_window_extent()
+        for axes in figure.axes[: len(names)]
+        for text in axes.findobj(Text)
+        if isinstance(text, Text) and text.get_text() and text.get_text() == axes.get_title("left")
+    ]
+    assert len(boxes) == len(names)
+    assert all(a.x1 < b.x0 for a, b in itertools.pairwise(boxes))
+    width = figure.bbox.width
+    assert all(text.get_window_extent().x0 >= 0 for text in figure.texts)
+    assert all(text.get_window_extent().x1 <= width for text in figure.texts)
 
 
 def test_ranks_are_over_the_tasks_of_all(tasks: tuple[OverviewTask, ...]) -> None:

@@ -118,7 +118,10 @@ def _draw_map(
         if row.outer_level:
             labels.append((y + 0.5, row.outer_level, False))
         elif row.parameter:
-            labels += [(y + 0.33, row.task, True), (y + 0.69, row.parameter, False)]
+            lines = row.parameter.split(", ", 1)  # of a task with one level
+            labels += [(y + 0.33 - 0.1 * (len(lines) - 1), row.task, True)]
+            labels += [(y + 0.69 + 0.26 * i - 0.13 * (len(lines) - 1), line, False)
+                       for i, line in enumerate(lines)]  # fmt: skip
         else:
             labels.append((y + 0.5, row.task, True))
         rates = row.rates.get(algorithm, ())

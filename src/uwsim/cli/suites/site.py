@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ...base.terminal import clean_text
+from ...base.terminal import clean_text, warn
 from ..options.help_texts import INPUT, OUTPUT, option
 from ..options.options import OutputOption, OverwriteOption
 from ..output.progress import progress
@@ -78,6 +78,9 @@ def write_leaderboard(
             suffix=".webp" if films else ".html",
             on_replay=on_replay,
         )
+    if board.suite is None:
+        name = board.candidates[0].submission.suite
+        warn(f"no bundled suite is called {name!r}: add --suite FILE for descriptions of tasks.")
     for entry in board.exclusions:
         print(clean_text(f"excluded: {entry.name}: {' '.join(entry.reasons)}"))
     n = len(board.candidates)
