@@ -91,6 +91,19 @@ def test_references_are_apart_and_compared_on_common_tasks(entries: Path) -> Non
     }
 
 
+def test_without_submissions_the_references_have_ranks_in_each_task_alone(entries: Path) -> None:
+    for name in ("position-p", "nothing"):
+        change(entries / name, kind="baseline")
+    board = collect_submissions(entries)
+    (group,) = rank_sections(board)[0]["groups"]
+    assert [(row["name"], row["rank"]) for row in group["rows"]] == [
+        ("position-p", "–"),
+        ("nothing", "–"),
+    ]
+    near = task_section(board.tasks[0], board, {}, all_statuses(board.tasks))
+    assert [row["rank"] for row in near["ranks"]] == ["1", "1"]
+
+
 def test_too_few_seeds_are_stated_and_have_no_places(entries: Path) -> None:
     """Three seeds of one task; the two tasks together have six units, which are just enough."""
     text = page_text(entries)

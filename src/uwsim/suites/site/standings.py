@@ -21,8 +21,8 @@ class Standings:
     """The submissions of one ranking, in three groups."""
 
     ranked_candidates: tuple[Candidate, ...]
-    """The submissions with all tasks, by rank and then by success; without any submission, the
-    references with all tasks."""
+    """The submissions with all tasks, by rank and then by success; in one task without any
+    submission, the references."""
     ranks: TaskRanks | None
     """The ranks of these; None for fewer than two, or without a shared seed and level."""
     partial_candidates: tuple[Candidate, ...]
@@ -54,7 +54,8 @@ def rank_candidates(candidates: Sequence[Candidate], tasks: Sequence[OverviewTas
 
     Args:
         candidates: the submissions.
-        tasks: the tasks; their results of other submissions do not count.
+        tasks: the tasks; their results of other submissions do not count. In one task without a
+            submission, the references are ranked: each is one algorithm there.
     """
     names = {candidate.name for candidate in candidates}
     own_tasks = [select_entries(task, names) for task in tasks]
@@ -63,11 +64,12 @@ def rank_candidates(candidates: Sequence[Candidate], tasks: Sequence[OverviewTas
         name: sum(any(e.name == name for e in task.entries) for task in own_tasks) for name in names
     }
     ordered_candidates = sorted(candidates, key=lambda c: (-n_tasks[c.name], -success[c.name]))
-    has_submission = any(not candidate.is_reference for candidate in candidates)
+    ranks_references = len(tasks) == 1 and all(c.is_reference for c in candidates)
     ranked_candidates = [
         candidate
         for candidate in ordered_candidates
-        if n_tasks[candidate.name] == len(tasks) and not (has_submission and candidate.is_reference)
+        if n_tasks[candidate.name] == len(tasks)
+        and (ranks_references or not candidate.is_reference)
     ]
     ranked_names = {candidate.name for candidate in ranked_candidates}
     ranks = rank_algorithms([select_entries(task, ranked_names) for task in own_tasks])
