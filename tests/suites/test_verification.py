@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.small_suite import SUITE, write_suite
+from tests.support.small_suite import SUITE, run_suite, write_suite
 from uwsim.base.files.input_files import compute_hash
 from uwsim.cli import main
 from uwsim.errors import BadSetting, ResultError
@@ -143,6 +143,22 @@ def test_an_entry_of_another_version_is_not_verified(entries: Path, suite: Suite
     verification = verify_submission(entry, suite, "x")
     assert verification.verdict == "not verified"
     assert "uwsim 0.1.0" in verification.reasons[0]
+
+
+@pytest.mark.slow
+def test_code_that_cannot_be_imported_here_is_not_verified(
+    small_suite: Path, suite: Suite, tmp_path: Path
+) -> None:
+    """A module of the author's machine that is absent here makes no claim false."""
+    program = tmp_path / "quiet.py"
+    program.write_text("class Quiet:\n    def start(self, node):\n        pass\n")
+    words = ("--algorithm", f"{program}:Quiet", "--tasks", "near", "--short")
+    entry = run_suite(small_suite, tmp_path / "entry", *words)
+    copied = entry / "code" / "quiet.py"
+    copied.write_text("import absent_module\n" + copied.read_text())
+    verification = verify_submission(entry, suite, "x")
+    assert verification.verdict == "not verified"
+    assert "absent_module" in " ".join(verification.reasons)
 
 
 def test_a_task_that_was_added_later_changes_no_verdict(

@@ -21,7 +21,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from ..base.files.input_files import compute_hash
-from ..errors import ResultError, UnknownName, UwsimError
+from ..errors import PluginError, ResultError, UnknownName, UwsimError
 from ..results.atomic_file import write_text
 from ..results.inputs import input_differences
 from ..results.result import Result
@@ -116,6 +116,8 @@ def verify_submission(
                 reasons += _compare(name, run, result, chosen_trials, executor, on_level)
     except NotVerifiable as error:
         verdict, reasons = UNKNOWN_VERDICT, [str(error)]
+    except PluginError as error:  # code that cannot be imported here proves nothing
+        verdict, reasons = UNKNOWN_VERDICT, [" ".join(str(error).split())]
     except UwsimError as error:
         reasons.append(" ".join(str(error).split()))
     if reasons and verdict == VERIFIED_VERDICT:
