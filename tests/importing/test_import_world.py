@@ -10,7 +10,7 @@ import pytest
 
 from tests.importing.sdf_files import ROV, import_text, link, write_in_model, write_in_world
 from uwsim.cli import main
-from uwsim.errors import BadSetting, SceneError
+from uwsim.errors import AssetError, BadSetting, SceneError
 from uwsim.importing import ImportRequest, import_file
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.reader import read_scene
@@ -232,3 +232,25 @@ def test_equal_files_are_imported_with_equal_bytes(tmp_path: Path) -> None:
         files = sorted(path for path in folder.rglob("*") if path.is_file())
         texts.append([path.read_bytes() for path in files])
     assert texts[0] == texts[1]
+
+
+def test_world_of_vrml_becomes_a_fixed_object(tmp_path: Path) -> None:
+    path = tmp_path / "my harbour.wrl"
+    path.write_text("#VRML V2.0 utf8\nShape { geometry Box { size 4 2 6 } }\nText { }")
+    result = import_file(ImportRequest(file=path, out=tmp_path / "scene"))
+    scene = read_scene(result.scene)
+    assert [entry.name for entry in scene.objects] == ["my_harbour"]
+    assert scene.objects[0].solid.mass == 0.0
+    assert scene.ocean_state.ocean_surface_height == 3.0  # 2 m above the box
+    statuses = {row.status: row.reason for row in result.report.rows}
+    assert statuses["imported"] == "fixed object my_harbour of 12 triangles"
+    assert "1 Text is left out" in statuses["changed"]
+
+
+def test_damaged_world_of_vrml_is_one_error_with_its_line(tmp_path: Path) -> None:
+    path = tmp_path / "a.wrl"
+    path.write_text("#VRML V2.0 utf8\nShape { geometry Box {")
+    with pytest.raises(AssetError) as error:
+        import_file(ImportRequest(file=path, out=tmp_path / "scene"))
+    assert str(error.value) == f"{path}: line 2: Box has no end."
+    assert not (tmp_path / "scene").exists()

@@ -197,7 +197,7 @@ COMMANDS: dict[str, Command] = {
     "import": Command(
         module="vehicles.import_file",
         function="import_scene",
-        summary="Import a world or model of Gazebo (SDF) as a scene.",
+        summary="Import a world or model of Gazebo (SDF) or VRML as a scene.",
         examples=(
             "uwsim import my_world.sdf -o my_scene",
             "uwsim import models/my_rov -o my_rov",

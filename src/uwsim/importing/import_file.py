@@ -9,6 +9,7 @@ from ..assets.packages import MODEL_FILE
 from ..base.files.staging import stage_directory
 from ..errors import BadSetting
 from ..scene.writer import write_scene
+from .graph_file import GRAPH_SUFFIXES, import_graph
 from .mesh_files import MeshFiles
 from .output.hydrodynamics_file import UUV_OBJECTS, make_hydrodynamics, write_hydrodynamics
 from .output.objects import ObjectWriter
@@ -32,7 +33,7 @@ from .sdf.values import text_of
 SCENE_FILE = "scene.xml"
 """The name of the written scene."""
 SDF_SUFFIXES = (".sdf", ".world", ".config")
-"""The suffixes of the files that are read."""
+"""The suffixes of files of SDF."""
 DETACHABLE_JOINT = "detachable-joint"
 """The plug-in of a joint that can open."""
 READ_PLUGINS = (
@@ -80,28 +81,39 @@ class Import:
 
 
 def import_file(request: ImportRequest) -> Import:
-    """Import a file of SDF into a new folder.
+    """Import a file of SDF, VRML, X3D or OpenSceneGraph into a new folder.
 
     Raises:
         BadSetting: the folder exists, or the file is of another kind.
         SceneError: the file, or one that it includes, is invalid; it has every mistake in it.
+        AssetError: a scene graph cannot be read.
     """
     if request.out.exists():
         raise BadSetting(f"{request.out} exists; an import is written into a new folder.")
     path = _find_file(request.file)
     report = ImportReport()
     folders = (*request.folders, *environment_folders())
+    if path.suffix.lower() in GRAPH_SUFFIXES:
+        with stage_directory(request.out) as folder:
+            scene = import_graph(path, MeshFiles(folder, folders, report), report)
+            (folder / SCENE_FILE).write_text(write_scene(scene), encoding="utf-8")
+    else:
+        _import_sdf(path, request.out, folders, report)
+    return Import(scene=request.out / SCENE_FILE, report=report)
+
+
+def _import_sdf(path: Path, out: Path, folders: tuple[Path, ...], report: ImportReport) -> None:
+    """Write the scene of a file of SDF."""
     world = SdfReader(search=ModelSearch(folders), report=report).read(path)
     water = read_water(world, report)
     _report_world_plugins(world, report)
     models = _place_models(world, path)
-    with stage_directory(request.out) as folder:
+    with stage_directory(out) as folder:
         writer = _Writer(folder, MeshFiles(folder, folders, report), report, water)
         for model in models:
             writer.add(model)
         scene = writer.parts.make_scene(water, world.earth_origin)
         (folder / SCENE_FILE).write_text(write_scene(scene), encoding="utf-8")
-    return Import(scene=request.out / SCENE_FILE, report=report)
 
 
 def _find_file(path: Path) -> Path:
@@ -113,8 +125,8 @@ def _find_file(path: Path) -> Path:
         return file
     if not path.exists():
         raise BadSetting(f"{path}: there is no such file.")
-    if path.suffix.lower() not in SDF_SUFFIXES:
-        expected = ", ".join(SDF_SUFFIXES)
+    if path.suffix.lower() not in (*SDF_SUFFIXES, *GRAPH_SUFFIXES):
+        expected = ", ".join((*SDF_SUFFIXES, *GRAPH_SUFFIXES))
         raise BadSetting(f"{path}: files of type {path.suffix or 'none'} are not imported; "
                          f"expected {expected}, or the folder of a model.")  # fmt: skip
     return path

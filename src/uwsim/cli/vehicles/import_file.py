@@ -20,7 +20,8 @@ FileArgument = Annotated[
     Path,
     typer.Argument(
         metavar="FILE",
-        help="A world or model of Gazebo (.sdf, .world), or the folder of a model.",
+        help="A world or model of Gazebo (.sdf, .world), the folder of a model, or a scene graph "
+        "(.wrl, .x3d).",
     ),
 ]
 
@@ -33,7 +34,7 @@ def import_scene(
     as_json: JsonOption = False,
     data_path: DataPathOption = None,
 ) -> None:
-    """Import a world or a model of Gazebo: scene, robots, hydrodynamics, meshes.
+    """Import a world or model of Gazebo, or a world of VRML: scene, robots, meshes.
 
     Included models are searched next to FILE, in every --data-path, and in the folders of
     GZ_SIM_RESOURCE_PATH and GAZEBO_MODEL_PATH. Nothing is downloaded.

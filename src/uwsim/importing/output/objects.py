@@ -58,8 +58,9 @@ class ObjectWriter:
             if spec is None:
                 continue
             if link.collisions:
-                spec = replace(spec, physics=_fixed_physics(visual))
-            yield spec
+                yield replace(spec, physics=_fixed_physics(visual))
+            else:
+                yield replace(spec, is_solid=False)
         for link in model.links.values():
             self._report_link(link, has_visuals=bool(link.visuals))
 
