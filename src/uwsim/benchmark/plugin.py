@@ -56,9 +56,16 @@ class Plugin:
     """The path of the file as given by the user."""
     source: bytes = field(repr=False)
     """The content of the file."""
+    is_isolated: bool = False
+    """True if only the process of an algorithm imports the file."""
 
-    def __reduce__(self) -> tuple[Callable[[str, bytes], Plugin], tuple[str, bytes]]:
-        """Pickle path and source; unpickling imports the module, which defines the classes."""
+    def __reduce__(self) -> tuple[Callable[..., Plugin], tuple[object, ...]]:
+        """Pickle the fields; unpickling imports the module, which defines classes of the plan.
+
+        An isolated file defines none, and is not imported.
+        """
+        if self.is_isolated:
+            return Plugin, (self.path, self.source, True)
         return _import_plugin, (self.path, self.source)
 
     @property
@@ -114,10 +121,20 @@ def _import_plugin(path: str, source: bytes) -> Plugin:
 
 
 def read_plugin(path: Path) -> Plugin:
-    """Read and import a plugin.
+    """Read and import a plugin; raise PluginError if the file cannot be read or imported."""
+    plugin = read_isolated(path)
+    return _import_plugin(plugin.path, plugin.source)
+
+
+def read_isolated(path: Path, name: str = "") -> Plugin:
+    """Read a file that the process of an algorithm alone imports.
+
+    Args:
+        path: the file.
+        name: its path in messages; empty for that of the file.
 
     Raises:
-        PluginError: the file cannot be read or imported.
+        PluginError: the file cannot be read.
     """
     try:
         source = read_bytes(path, at_most=MAX_BYTES)
@@ -126,7 +143,7 @@ def read_plugin(path: Path) -> Plugin:
         raise Plugin(str(path), b"").diagnostic(f"{message}: not a plugin") from None
     except OSError as error:
         raise Plugin(str(path), b"").diagnostic(f"cannot be read: {error.strerror}") from None
-    return _import_plugin(str(path), source)
+    return Plugin(name or str(path), source, is_isolated=True)
 
 
 def line_of_class(value: object, plugin: Plugin) -> int | None:

@@ -302,7 +302,7 @@ def check_live(options: BenchOptions, plans: Sequence[Plan]) -> None:
 
 def is_piloted(plan: Plan) -> bool:
     """Return whether a user pilots in a plan, instead of recorded inputs of an earlier run."""
-    return bool(getattr(plan.algorithm.cls, "IS_PILOTED", False)) and not plan.inputs
+    return plan.algorithm.facts.is_piloted and not plan.inputs
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ..errors import BadSetting, did_you_mean
 
 if TYPE_CHECKING:
+    from ..benchmark.plugin import Plugin
     from ..bus import Algorithm
 
 METHODS = "method start(node), or __call__(observation) of a policy"
@@ -28,22 +29,26 @@ def load_program(name: str, table: Mapping[str, type[Algorithm]]) -> type[Algori
         PluginError: a file cannot be read or imported.
     """
     from ..algorithms import load_algorithm
+    from ..benchmark.plugin import read_plugin
 
     file, _, class_name = name.partition(":")
     if file.endswith(".py"):
-        return _class_of_file(Path(file), class_name)
+        return class_of_file(read_plugin(Path(file)), class_name)
     if ":" in name and "" not in sys.path and str(Path.cwd()) not in sys.path:
         sys.path.insert(0, str(Path.cwd()))
     return load_algorithm(name, table)
 
 
-def _class_of_file(path: Path, class_name: str) -> type[Algorithm]:
-    """Return the class of a file; its name may be empty if only one class has ``start``."""
-    from ..algorithms.policy import is_policy
-    from ..benchmark.plugin import read_plugin
+def class_of_file(plugin: Plugin, class_name: str) -> type[Algorithm]:
+    """Import a file and return its class; the name may be empty if only one class has ``start``.
 
-    plugin = read_plugin(path)
-    names = vars(plugin.module())
+    Raises:
+        BadSetting: the file has no such class.
+        PluginError: the file cannot be imported.
+    """
+    from ..algorithms.policy import is_policy
+
+    path, names = plugin.path, vars(plugin.module())
     classes = {
         name: value
         for name, value in names.items()

@@ -57,7 +57,8 @@ def hash_algorithm(plan: Plan) -> dict[str, str] | None:
     module, colon, _ = plan.algorithm.name.partition(":")
     if not colon:
         return None
-    return hashes_by_name(_hash_files(find_sources(module)))
+    sources = plan.algorithm.sources
+    return hashes_by_name(_hash_files(find_sources(module) if sources is None else sources))
 
 
 def _hash_files(files: Mapping[str, Path]) -> list[InputFile]:

@@ -110,7 +110,7 @@ class Run:
         runs freely, or with a call into the algorithm that did not return.
         """
         plan = self.plan
-        is_piloted = getattr(plan.algorithm.cls, "IS_PILOTED", False) and not plan.inputs
+        is_piloted = plan.algorithm.facts.is_piloted and not plan.inputs
         is_free = plan.algorithm.client is not None and plan.algorithm.client.sync == "none"
         for trial, content in self.read_trials():
             if content.end is None or _has_motion(self.out, trial):

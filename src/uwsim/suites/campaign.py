@@ -119,6 +119,15 @@ def copy_code(algorithms: Sequence[str], files: Sequence[Path], out: Path) -> di
     return names
 
 
+def code_folder(out: Path) -> Path | None:
+    """Return the folder of the algorithm's files in an entry; None if it has none.
+
+    The process of the algorithm runs there, and no other: its files may have the names of modules.
+    """
+    folder = out / CODE_FOLDER
+    return folder if folder.is_dir() else None
+
+
 def add_cpu_time(out: Path, shard: Shard | None, seconds: float) -> None:
     """Add CPU time [s] to that of earlier calls with the same shard."""
     name = "all" if shard is None else f"{shard.number}-of-{shard.count}"

@@ -64,6 +64,8 @@ class Entry:
     """Settings ``algorithm.NAME=VALUE``."""
     client: ClientSpec | None = None
     """The program outside that is the algorithm; None without one."""
+    folder: Path | None = None
+    """The folder of the algorithm's files; None for the current one."""
 
     @property
     def tasks(self) -> tuple[TaskSpec, ...]:
@@ -81,6 +83,8 @@ class Entry:
             settings=self.settings,
             track=self.track.rule,
             client=self.client,
+            is_isolated=True,
+            folder=self.folder,
         )
         plan = make_plan(request)
         if self.is_short:

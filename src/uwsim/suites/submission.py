@@ -243,7 +243,7 @@ def submission_of(
         track=entry.track.name,
         seeds=entry.seeds,
         is_short=entry.is_short,
-        is_human=any(getattr(run.plan.algorithm.cls, "IS_PILOTED", False) for run in runs),
+        is_human=any(run.plan.algorithm.facts.is_piloted for run in runs),
         settings=entry.settings,
         tasks=tasks,
         compute={

@@ -16,7 +16,6 @@ import hashlib
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import chdir, contextmanager, nullcontext
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -34,7 +33,7 @@ from ..runs.run import Run
 from ..verify.environment import environment_differences
 from ..verify.verify import ENVIRONMENT, choose_trials, complete_trials, verify
 from ..version import __version__
-from .campaign import CODE_FOLDER
+from .campaign import code_folder
 from .entry import Entry, Seeds, check_settings, plan_entry, prepare_entry, task_hash
 from .seeds import draw_test_seeds
 from .submission import Submission, load_submission
@@ -98,22 +97,21 @@ def verify_submission(
     Raises:
         ResultError: there is no submission.
     """
-    directory = directory.absolute()  # the code of the algorithm runs in a folder of its own
+    directory = directory.absolute()
     submission = load_submission(directory)
     trials: dict[str, tuple[int, ...]] = {}
     verdict, reasons = VERIFIED_VERDICT, list[str]()
     try:
         entry = _claimed_entry(submission, suite, directory)
-        with _code_of(directory):
-            for name, run in _prepare(entry, directory):
-                result = load(run.out)
-                reasons += _false_claims(submission, name, result, run)
-                if reasons:
-                    continue
-                chosen_trials = _draw_trials(submission, name, run, result, sample, share)
-                trials[name] = tuple(trial.index for trial in chosen_trials)
-                on_level = open_progress(name, sum(len(trial.levels) for trial in chosen_trials))
-                reasons += _compare(name, run, result, chosen_trials, executor, on_level)
+        for name, run in _prepare(entry, directory):
+            result = load(run.out)
+            reasons += _false_claims(submission, name, result, run)
+            if reasons:
+                continue
+            chosen_trials = _draw_trials(submission, name, run, result, sample, share)
+            trials[name] = tuple(trial.index for trial in chosen_trials)
+            on_level = open_progress(name, sum(len(trial.levels) for trial in chosen_trials))
+            reasons += _compare(name, run, result, chosen_trials, executor, on_level)
     except NotVerifiable as error:
         verdict, reasons = UNKNOWN_VERDICT, [str(error)]
     except PluginError as error:  # code that cannot be imported here proves nothing
@@ -180,6 +178,7 @@ def _claimed_entry(submission: Submission, suite: Suite, directory: Path) -> Ent
         seeds=submission.seeds,
         is_short=submission.is_short,
         settings=submission.settings,
+        folder=code_folder(directory),
     )
 
 
@@ -198,14 +197,6 @@ def _check_seeds(seeds: Seeds, suite: Suite) -> None:
             f"its seeds are {seeds.first} to {seeds.first + seeds.count - 1}; the split "
             f"{seeds.split!r} has {expected.first} to {expected.first + expected.count - 1}."
         )
-
-
-@contextmanager
-def _code_of(directory: Path) -> Iterator[None]:
-    """Change into the folder with the code of the algorithm, if there is one."""
-    code = directory / CODE_FOLDER
-    with chdir(code) if code.is_dir() else nullcontext():
-        yield
 
 
 def _prepare(entry: Entry, directory: Path) -> Iterator[tuple[str, Run]]:

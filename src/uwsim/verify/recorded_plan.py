@@ -93,6 +93,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
         plugins=_plugins(result, overrides.plugins, [*words, *_plugin_paths(result, benchmark)]),
         no_code=overrides.no_code,
         in_process=SHARED_PROCESS in dict(run.clients or ()).values(),
+        is_isolated=run.track is not None,
         algorithm_is_from=str(directory),
     )
     return replace(make_plan(request), is_blind=is_blind)

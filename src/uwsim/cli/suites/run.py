@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, chdir, nullcontext
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -144,7 +144,7 @@ def run_entry(context: typer.Context, suite: SuiteArgument, options: SuiteRunOpt
 
     Exit status 3: the algorithm failed by an error in every row of a task.
     """
-    from ...suites.campaign import CODE_FOLDER, copy_code
+    from ...suites.campaign import code_folder, copy_code
     from ...suites.entry import Entry, check_settings, choose_algorithms
     from ...suites.suite import find_suite, read_suite
 
@@ -181,10 +181,9 @@ def run_entry(context: typer.Context, suite: SuiteArgument, options: SuiteRunOpt
         is_short=options.seeds.public_seeds.is_short,
         settings=tuple(options.entry.settings or ()),
         client=options.client_options.client_spec(),
+        folder=code_folder(out),
     )
-    code = out / CODE_FOLDER
-    with chdir(code) if code.is_dir() else nullcontext():
-        run_prepared(context.obj, entry, options, out, shard)
+    run_prepared(context.obj, entry, options, out, shard)
 
 
 def read_shard_option(options: SuiteRunOptions) -> Shard | None:

@@ -5,6 +5,7 @@ It receives frames through one socket, answers each, and has no other access to 
 .. code-block:: text
 
     from the simulation                 answer, when the algorithm has returned
+      describe  path, file, name, parameters
       make  path, plugins, class          done  published, value, violated rule
       start now, parameters, rng_state    raised  published, kind, message, text
       call  callback, now, message
@@ -173,6 +174,15 @@ class Child:
             description = (type(error).__name__, message, text)
             frame = encode(["raised", self._node.take_published(), *description])
         self._send(frame)
+
+    def _describe(
+        self, path: list[str], source: list[Any], name: str, parameters: dict[str, Any]
+    ) -> object:
+        """Import a class, and return what a run needs to know of it."""
+        from .describe_class import describe
+
+        sys.path[:] = path
+        return describe(source, name, parameters)
 
     def _make(self, path: list[str], sources: list[list[Any]], module: str, name: str) -> None:
         """Import the class as the simulation did, and construct the algorithm."""

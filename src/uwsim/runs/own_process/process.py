@@ -19,6 +19,7 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from multiprocessing.connection import Connection
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
@@ -31,6 +32,7 @@ from ...bus import Node
 from ...errors import BadSetting, RunFailed, UwsimError
 from ...simulation import CallStopped
 from .codec import MAX_FRAME, FrameError, decode, encode
+from .facts import AlgorithmFacts, facts_of, search_path
 
 PROCESS_ENDED = "its process ended"
 """The beginning of the reason in the row of a level in which the algorithm's process ended."""
@@ -51,15 +53,17 @@ class OwnProcess:
 
     Args:
         limit: the longest wait for the answer to one request [s of wall time]; None: no limit.
+        folder: the working directory of the process; None for that of this process.
     """
 
-    def __init__(self, limit: float | None = None) -> None:
+    def __init__(self, limit: float | None = None, folder: Path | None = None) -> None:
         own_socket, child_socket = socket.socketpair()
         with child_socket, block_interrupts():
             self._process = subprocess.Popen(
                 [sys.executable, "-m", CHILD_MODULE, str(child_socket.fileno()), str(os.getpid())],
                 pass_fds=(child_socket.fileno(),),
                 stdin=subprocess.DEVNULL,
+                cwd=folder,
                 env={
                     **remove_secrets(os.environ),
                     "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
@@ -191,11 +195,12 @@ class ProcessAlgorithm:
 
     Args:
         process: the process, which has no algorithm yet.
-        algorithm: the class of the algorithm, which the process imports.
+        algorithm: the class of the algorithm, which the process imports, or facts of it.
         plugins: the plugins to load in the process; one of them may contain the class.
         settings: the parameters set by the user.
         may_refuse: the function that returns whether a subscriber of a topic may refuse messages;
             the algorithm then waits for the answer to each message that it publishes there.
+        folder: the folder of its files, in which modules are found; None without one.
 
     Raises:
         RemoteError: the algorithm cannot be constructed.
@@ -204,16 +209,18 @@ class ProcessAlgorithm:
     def __init__(
         self,
         process: OwnProcess,
-        algorithm: type,
+        algorithm: type[Any] | AlgorithmFacts,
         plugins: Sequence[Plugin] = (),
         settings: Mapping[str, float | str] | None = None,
         may_refuse: Callable[[str], bool] = lambda topic: True,
+        folder: Path | None = None,
     ) -> None:
         self._process, self._settings, self._may_refuse = process, dict(settings or {}), may_refuse
         self._node: Node | None = None
         self._publishers: list[Callable[[Any], None]] = []
         sources = [[plugin.module_name, plugin.path, plugin.source] for plugin in plugins]
-        self._request("make", sys.path, sources, algorithm.__module__, algorithm.__qualname__)
+        facts = facts_of(algorithm)
+        self._request("make", search_path(folder), sources, facts.module, facts.qualname)
 
     @property
     def parameters(self) -> Mapping[str, float | int | str]:

@@ -41,16 +41,23 @@ def program_of(plan: Plan, limit: float | None = None) -> Iterator[Program]:
         if plan.algorithm.client is not None:
             yield partial(_client, plan.algorithm.client, stack)
         elif plan.algorithm.own_process:
-            yield partial(_process_algorithm, plan, stack.enter_context(OwnProcess(limit)))
+            yield partial(
+                _process_algorithm,
+                plan,
+                stack.enter_context(OwnProcess(limit, plan.algorithm.folder)),
+            )
         else:
-            yield lambda simulation, parameters: make_algorithm_of(plan.algorithm.cls)
+            yield lambda simulation, parameters: make_algorithm_of(plan.algorithm.loaded_class)
 
 
 def _process_algorithm(
     plan: Plan, process: OwnProcess, simulation: Simulation, parameters: Mapping[str, float | str]
 ) -> Algorithm:
     may_refuse = simulation.bus.may_refuse
-    return ProcessAlgorithm(process, plan.algorithm.cls, plan.plugins, parameters, may_refuse)
+    under_test = plan.algorithm
+    return ProcessAlgorithm(
+        process, under_test.cls, plan.plugins, parameters, may_refuse, under_test.folder
+    )
 
 
 def _client(
@@ -98,7 +105,7 @@ def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
         return ((plan.algorithm.name, plan.algorithm.client.participation), *autopilot)
     if plan.algorithm.own_process:
         return ((plan.algorithm.name, OWN_PROCESS), *autopilot)
-    if plan.algorithm.cls.__module__.startswith("uwsim."):
+    if plan.algorithm.facts.module.startswith("uwsim."):
         return autopilot or None
     return ((plan.algorithm.name, SHARED_PROCESS), *autopilot)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from ...assets.bundled import benchmark_file, scene_file
@@ -16,9 +17,11 @@ from ...schema.source_line import line_of
 from ...world import TIMESTEP
 from ..foreign_code import announce, code_refusal, refuse_code
 from ..named_plugins import named_plugins
+from ..own_process.facts import AlgorithmFacts
 from ..program import load_program
 from ..substituted_files import warn_of_substituted_files
 from .ardupilot_scene import connect_ardupilot, exchange_timestep
+from .isolated_algorithm import IsolatedAlgorithm, isolated_algorithm
 from .option_values import compatibility_of, levels_of, mode_of, number_or_text, pairs_of
 from .plan_request import PlanRequest
 from .px4_scene import connect_px4
@@ -72,7 +75,8 @@ def make_plan(request: PlanRequest) -> Plan:
     }
     files = _apply_settings(files, pairs, errors)
     spec, scene = files.benchmark, files.scene
-    algorithm_class: type[Algorithm] | None = None
+    algorithm_class: type[Algorithm] | AlgorithmFacts | None = None
+    isolated: IsolatedAlgorithm | None = None
     with errors.collect():
         if scene is not None and request.no_code:
             refuse_code(scene)
@@ -81,7 +85,10 @@ def make_plan(request: PlanRequest) -> Plan:
         name = request.algorithm or ""
         # a name that still has the prefix has an error, which has been collected
         if algorithm_class is None and not name.startswith(PREFIX):
-            algorithm_class = _algorithm(request, files)
+            isolated = isolated_algorithm(request, _algorithm_name(request, spec), parameters)
+            algorithm_class = (
+                _algorithm(request, files) if isolated is None else isolated.description.facts
+            )
     with errors.collect():
         if scene is not None and request.udp_address is not None:
             scene = (
@@ -91,7 +98,8 @@ def make_plan(request: PlanRequest) -> Plan:
             )
     with errors.collect():
         check_client(request, parameters)
-    check_parameters(algorithm_class, parameters, errors)
+    refusals = {} if isolated is None else isolated.description.refusals
+    check_parameters(algorithm_class, parameters, errors, refusals)
     mode: Mode = "sequential"
     with errors.collect():
         mode = mode_of(request.mode or (None if spec is None else spec.mode))
@@ -118,6 +126,8 @@ def make_plan(request: PlanRequest) -> Plan:
             and not request.in_process
             and algorithm_class not in _bundled_algorithms(_algorithm_name(request, spec)),
             client=request.client,
+            folder=None if isolated is None else isolated.folder,
+            sources=None if isolated is None else isolated.description.sources,
         ),
         settings=tuple(pairs),
         mode=mode,
@@ -131,7 +141,11 @@ def make_plan(request: PlanRequest) -> Plan:
         compatibility=quirks,
         data_path=tuple(request.data_path),
         inputs=inputs,
-        plugins=_add_program(files.plugins, _algorithm_name(request, spec)),
+        plugins=(
+            _add_program(files.plugins, _algorithm_name(request, spec))
+            if isolated is None
+            else (*files.plugins, *isolated.plugins)
+        ),
     )
 
 
@@ -336,18 +350,28 @@ def check_client(request: PlanRequest, parameters: Mapping[str, float | str]) ->
 
 
 def check_parameters(
-    algorithm_class: type[Algorithm] | None,
+    algorithm_class: type[Algorithm] | AlgorithmFacts | None,
     parameters: Mapping[str, float | str],
     errors: ErrorCollector,
+    refusals: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
-    """Collect errors for parameters that the algorithm does not have."""
+    """Collect errors for parameters that the algorithm does not have.
+
+    Args:
+        algorithm_class: the class, or facts of it; None for an algorithm that was not found.
+        parameters: the parameters.
+        errors: the collection of errors.
+        refusals: the errors that an isolated algorithm has found, by parameter.
+    """
     from ... import algorithms
     from ...simulation import latency_of
 
     for name, value in parameters.items():
         with errors.collect():
             latency_of({name: value})
-            if algorithm_class is not None:
+            if name in refusals:
+                raise BadSetting(refusals[name])
+            if algorithm_class is not None and not isinstance(algorithm_class, AlgorithmFacts):
                 algorithms.check_parameters(algorithm_class, {name: value})
 
 

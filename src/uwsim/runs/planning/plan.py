@@ -22,6 +22,7 @@ from ...middleware.lockstep.spec import ClientSpec
 from ...scene.spec import SceneSpec
 from ...scene.variation import Draw, draw
 from ...world import TIMESTEP
+from ..own_process.facts import AlgorithmFacts, facts_of
 from ..tracks.track import Track
 
 Mode = Literal["sequential", "independent"]
@@ -62,8 +63,8 @@ class Trial:
 class AlgorithmUnderTest:
     """An algorithm, its parameters, and where it runs."""
 
-    cls: type[Algorithm]
-    """The class of the algorithm."""
+    cls: type[Algorithm] | AlgorithmFacts
+    """The class of the algorithm; or the facts of a class that its own process alone imports."""
     name: str
     """The name with which the user selected it."""
     parameters: Mapping[str, float | str] = field(default_factory=dict)
@@ -72,6 +73,20 @@ class AlgorithmUnderTest:
     """True if it runs in a process of its own, in lock-step."""
     client: ClientSpec | None = None
     """The external program that is the algorithm; None if the algorithm is ``cls``."""
+    folder: Path | None = None
+    """The working directory of its own process; None for that of the simulation."""
+    sources: Mapping[str, Path] | None = None
+    """The files of the class, which its own process has found; None to find them when hashed."""
+
+    @property
+    def facts(self) -> AlgorithmFacts:
+        """The facts of the class."""
+        return facts_of(self.cls)
+
+    @property
+    def loaded_class(self) -> type[Algorithm]:
+        """The class in this process; `Algorithm` itself if its own process alone imports it."""
+        return Algorithm if isinstance(self.cls, AlgorithmFacts) else self.cls
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +139,9 @@ class Plan:
     @property
     def is_bundled(self) -> bool:
         """True if only code of uwsim runs, that is, a bundled algorithm without plugins."""
-        return self.algorithm.cls.__module__.startswith("uwsim.") and not self.plugins
+        cls = self.algorithm.cls
+        is_own = not isinstance(cls, AlgorithmFacts) and cls.__module__.startswith("uwsim.")
+        return is_own and not self.plugins
 
     @property
     def start_timeout(self) -> float:

@@ -51,6 +51,10 @@ class PlanRequest:
     """True if the autopilot is PX4; otherwise it is ArduPilot."""
     in_process: bool = False
     """True if a third-party algorithm shares the simulation's process."""
+    is_isolated: bool = False
+    """True if only its own process imports the class of a third-party algorithm."""
+    folder: Path | None = None
+    """The folder of the files of an isolated algorithm; None for the current one."""
     track: Track | None = None
     """The rule for the topics that the algorithm may receive; None: all that are not hidden."""
     algorithm_is_from: str = ""

@@ -15,8 +15,6 @@ The user entered these numbers into the tracker. Here a tracker that no measure 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from ...benchmark.ground_truth import ConstantSpec
 from ...benchmark.measures import EuclideanNormSpec
 from ..planning.plan import Plan
@@ -34,9 +32,9 @@ def known_corners(plan: Plan) -> dict[str, str]:
     eight constants for the topic of the corners, or if the algorithm has no such parameter.
     """
     norms = [spec for spec in plan.benchmark.measures if isinstance(spec, EuclideanNormSpec)]
-    defaults: object = getattr(plan.algorithm.cls, "PARAMETERS", None)
+    names = plan.algorithm.facts.parameter_names
     is_initialised = any(norm.ground_truth.publish_on is not None for norm in norms)
-    if is_initialised or not isinstance(defaults, Mapping) or PARAMETER not in defaults:
+    if is_initialised or names is None or PARAMETER not in names:
         return {}
     for norm in norms:
         truth = norm.ground_truth

@@ -34,7 +34,7 @@ def make_algorithm(
             raise
         raise NeverStarted(
             f"Algorithm {plan.algorithm.name!r} cannot be made: "
-            f"{to_line(describe_failure(error, plan.algorithm.cls))}"
+            f"{to_line(describe_failure(error, plan.algorithm.loaded_class))}"
         ) from error
 
 
@@ -48,13 +48,13 @@ def reported_parameters(
     """
     try:
         with calls:
-            return read_parameters(algorithm, user_parameters, name=plan.algorithm.cls.__name__)
+            return read_parameters(algorithm, user_parameters, name=plan.algorithm.facts.name)
     except UwsimError:
         raise
     except BaseException as error:
         if is_user_interrupt(error):
             raise
-        message = to_line(describe_failure(error, plan.algorithm.cls))
+        message = to_line(describe_failure(error, plan.algorithm.loaded_class))
         raise RunFailed(
             f"Algorithm {plan.algorithm.name!r} cannot report its parameters: {message}"
         ) from error

@@ -114,7 +114,7 @@ def pilot_inputs(
     plan: Plan, trial: Trial, simulation: Simulation, observer: TrialObserver | None
 ) -> PilotInputs | None:
     """Return the publisher of a pilot's inputs, live or stored; None if no pilot is needed."""
-    if not getattr(plan.algorithm.cls, "IS_PILOTED", False):
+    if not plan.algorithm.facts.is_piloted:
         return None
     data = plan.inputs.get(trial.index)
     if data is not None:

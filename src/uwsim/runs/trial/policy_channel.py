@@ -13,17 +13,16 @@ With several ``<u:environment>``, each vehicle has topics of its own, ``VEHICLE/
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from ...algorithms.policy import ACTION, AGENTS, IMAGES, OBSERVATION, is_policy
+from ...algorithms.policy import ACTION, AGENTS, IMAGES, OBSERVATION
 from ...base.geometry import Array
 from ...benchmark.environment import Actuator, EnvironmentSpec, Observer, bind_images
 from ...benchmark.environment.channels import VehicleState
 from ...benchmark.measures import MeasureSpec
 from ...benchmark.spec import BenchmarkSpec
-from ...bus import Algorithm
 from ...errors import BadMessage
 from ...messages import (
     Float64MultiArray,
@@ -34,6 +33,7 @@ from ...messages import (
 )
 from ...messages.observation import Observation, join_parts
 from ...simulation import Simulation
+from ..own_process.facts import AlgorithmFacts
 
 
 class PolicyChannel:
@@ -168,18 +168,18 @@ def agents_of(benchmark: BenchmarkSpec) -> tuple[str, ...]:
     return vehicles if len(vehicles) > 1 else ()
 
 
-def agent_parameters(benchmark: BenchmarkSpec, algorithm: type[Algorithm]) -> dict[str, str]:
+def agent_parameters(benchmark: BenchmarkSpec, algorithm: AlgorithmFacts) -> dict[str, str]:
     """Return the parameter ``agents``: the vehicles that have policies, separated by blanks.
 
     It is empty if there is one vehicle, or if the algorithm has no such parameter.
     """
     agents = agents_of(benchmark)
-    defaults: object = getattr(algorithm, "PARAMETERS", {AGENTS: ""})
-    has_parameter = isinstance(defaults, Mapping) and AGENTS in defaults
+    names = algorithm.parameter_names
+    has_parameter = names is None or AGENTS in names
     return {AGENTS: " ".join(agents)} if agents and has_parameter else {}
 
 
-def image_parameters(benchmark: BenchmarkSpec, algorithm: type[Algorithm]) -> dict[str, str]:
+def image_parameters(benchmark: BenchmarkSpec, algorithm: AlgorithmFacts) -> dict[str, str]:
     """Return the parameter ``images``: the topics of observed images, separated by blanks.
 
     It is empty if there are no images, or if the algorithm is no policy.
@@ -190,4 +190,4 @@ def image_parameters(benchmark: BenchmarkSpec, algorithm: type[Algorithm]) -> di
         for spec in benchmark.environments
         for image in spec.image
     ]
-    return {IMAGES: " ".join(topics)} if topics and is_policy(algorithm) else {}
+    return {IMAGES: " ".join(topics)} if topics and algorithm.is_policy else {}

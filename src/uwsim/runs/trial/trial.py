@@ -177,8 +177,8 @@ class TrialExecution:
         self._parameters = {
             **scene_parameters,
             **known_corners(plan),
-            **agent_parameters(benchmark, plan.algorithm.cls),
-            **image_parameters(benchmark, plan.algorithm.cls),
+            **agent_parameters(benchmark, plan.algorithm.facts),
+            **image_parameters(benchmark, plan.algorithm.facts),
             **plan.algorithm.parameters,
         }
         self._algorithm = make_algorithm(
