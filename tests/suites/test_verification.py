@@ -43,6 +43,35 @@ def reasons_of(entry: Path, suite: Suite, sample: str = "x") -> str:
     return "\n".join(verification.reasons)
 
 
+def reasons_of_change(entry: Path, suite: Suite, **changes: Any) -> str:
+    save_submission(replace(load_submission(entry), **changes), entry)
+    return reasons_of(entry, suite)
+
+
+def test_another_film_of_a_trial_is_found(entries: Path, suite: Suite) -> None:
+    for task in ("near-v1", "far-v1"):
+        first, *others = sorted((entries / "nothing" / task / "units").glob("*.motion"))
+        for path in others:
+            path.write_bytes(first.read_bytes())
+    reasons = [verify_submission(entries / "nothing", suite, text).reasons for text in "ab"]
+    assert "is not the motion of the replay" in str(reasons)
+
+
+def test_test_seeds_are_those_of_the_organiser(
+    small_suite: Path, suite: Suite, tmp_path: Path
+) -> None:
+    words = ["--algorithm", "near=nothing", "--split", "test", "--seeds", "1", "--short"]
+    entry = run_suite(
+        small_suite, tmp_path / "entry", *words, "--date", "2020-01-01", "--beacon", "luck"
+    )
+    assert verify_submission(entry, suite, "x").verdict == "not verified"
+    verdicts = {
+        text: verify_submission(entry, suite, "x", test_seeds=("2020-01-01", text)).verdict
+        for text in ("luck", "chance")
+    }
+    assert verdicts == {"luck": "verified", "chance": "differs"}
+
+
 def test_an_unchanged_entry_is_verified_with_a_trial_of_each_task(
     entries: Path, suite: Suite
 ) -> None:
@@ -139,7 +168,10 @@ def test_a_false_claim_is_found(
 
 def test_an_entry_of_another_version_is_not_verified(entries: Path, suite: Suite) -> None:
     entry = entries / "nothing"
-    save_submission(replace(load_submission(entry), version="0.1.0"), entry)
+    assert "is of uwsim" in reasons_of_change(entry, suite, version="0.1.0")
+    for name in load_submission(entry).tasks:
+        change_json(entry / name / "result.json", lambda d: d["run"].update(version="0.1.0"))
+    claim_results(entry)
     verification = verify_submission(entry, suite, "x")
     assert verification.verdict == "not verified"
     assert "uwsim 0.1.0" in verification.reasons[0]

@@ -56,7 +56,7 @@ class Plugin:
     """The path of the file as given by the user."""
     source: bytes = field(repr=False)
     """The content of the file."""
-    is_isolated: bool = False
+    is_isolated: bool = field(default=False, repr=False)
     """True if only the process of an algorithm imports the file."""
 
     def __reduce__(self) -> tuple[Callable[..., Plugin], tuple[object, ...]]:

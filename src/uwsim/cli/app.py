@@ -72,7 +72,7 @@ SUITE_COMMANDS: dict[str, Command] = {
         module="suites.site",
         function="write_leaderboard",
         summary="Write the page of a leaderboard.",
-        examples=("uwsim suite site entries -o page",),
+        examples=("uwsim suite site entries -o page", "uwsim suite site entries --seeds 3 -o page"),
     ),
     "table": Command(
         module="suites.table",

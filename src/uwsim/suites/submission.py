@@ -28,6 +28,7 @@ from ..runs.run import Run
 from ..version import __version__
 from .campaign import total_cpu_time
 from .entry import Entry, Seeds, task_hash
+from .entry_files import read_plain_file
 
 FILE = "submission.json"
 """The name of the file."""
@@ -35,6 +36,8 @@ FORMAT = "uwsim-submission/1"
 """The format of the file."""
 MAX_BYTES = 1_000_000
 """The greatest size of the file."""
+MAX_NAME, MAX_TEXT = 80, 2000
+"""The greatest length of the name of a submission, and of any other text in it [letters]."""
 KINDS = ("entry", "baseline", "control", "expert")
 """The kinds of submissions."""
 
@@ -163,13 +166,7 @@ def load_submission(directory: Path) -> Submission:
     """
     path = directory / FILE
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise ResultError(f"{path}: longer than {MAX_BYTES} bytes.")
-        document = json.loads(path.read_bytes())
-    except OSError:
-        raise ResultError(
-            f"{path}: there is no such file; expected the --out of uwsim suite run."
-        ) from None
+        document = json.loads(read_plain_file(path, MAX_BYTES))
     except (ValueError, RecursionError) as error:
         raise ResultError(f"{path}: is no JSON: {str(error).splitlines()[0]}.") from None
     try:
@@ -178,10 +175,36 @@ def load_submission(directory: Path) -> Submission:
         raise ResultError(f"{path}: {error}") from None
 
 
+def check_texts(document: object, path: str = "submission") -> None:
+    """Raise ResultError for a text that does not suit a page: too long, or with control letters.
+
+    Args:
+        document: the content of a JSON file, or a part of it.
+        path: the name of the part.
+    """
+    if isinstance(document, dict):
+        for key, value in document.items():
+            check_texts(key, f"a key of {path}")
+            check_texts(value, f"{path}.{key}")
+    elif isinstance(document, list):
+        for value in document:
+            check_texts(value, path)
+    elif isinstance(document, str):
+        limit = MAX_NAME if path.endswith(".name") else MAX_TEXT
+        if len(document) > limit:
+            raise ResultError(f"{path} has {len(document)} letters; at most {limit} are allowed.")
+        if not document.isprintable():
+            raise ResultError(
+                f"{path} is {document!r:.60}; it has letters that cannot be printed, or that "
+                "change the direction of writing."
+            )
+
+
 def _read_document(document: Any) -> Submission:
     SHAPE(document, "submission")
     if document["format"] != FORMAT:
         raise ResultError(f"format is {document['format']!r:.60}; expected {FORMAT!r}.")
+    check_texts(document)
     if document["kind"] not in KINDS:
         raise ResultError(f"kind is {document['kind']!r:.60}; expected {', '.join(KINDS)}.")
     if unknown_keys := [key for key in document if key not in _KEYS]:

@@ -34,12 +34,14 @@ from ..verify.environment import environment_differences
 from ..verify.verify import ENVIRONMENT, choose_trials, complete_trials, verify
 from ..version import __version__
 from .campaign import code_folder
+from .claims import false_kind
 from .entry import Entry, Seeds, check_settings, plan_entry, prepare_entry, task_hash
+from .entry_files import VERDICT_FILE, entry_hash
 from .seeds import draw_test_seeds
 from .submission import Submission, load_submission
 from .suite import TEST_SPLIT, Suite
 
-FILE = "verification.json"
+FILE = VERDICT_FILE
 """The name of the file with the verdict."""
 FORMAT = "uwsim-verification/1"
 """The format of the file."""
@@ -63,6 +65,8 @@ class Verification:
 
     submission: str
     """The hash of the submission."""
+    entry: str = ""
+    """The hash of all files of the entry (`entry_hash`), its code and its motion among them."""
     verdict: str
     """``verified``, ``differs`` or ``not verified``."""
     reasons: tuple[str, ...] = ()
@@ -80,6 +84,7 @@ def verify_submission(
     suite: Suite,
     sample: str,
     *,
+    test_seeds: tuple[str, str] | None = None,
     share: float = SHARE,
     executor: Executor | None = None,
     open_progress: Callable[[str, int], OnLevel] = lambda title, total: lambda: None,
@@ -90,19 +95,22 @@ def verify_submission(
         directory: the folder of the submission.
         suite: the suite of the verifier.
         sample: a text that the author could not know.
+        test_seeds: the date and the public text of the split test, which the organiser states;
+            None: an entry with test seeds is not verified.
         share: the share of the trials of each task to run again; at least one trial is.
         executor: the executor of the trials; None for this process.
         open_progress: returns the function to call for each level, for a title and their number.
 
     Raises:
-        ResultError: there is no submission.
+        ResultError: there is no submission, or a file of the entry is no plain file.
     """
     directory = directory.absolute()
+    entry_sha256 = entry_hash(directory)
     submission = load_submission(directory)
     trials: dict[str, tuple[int, ...]] = {}
     verdict, reasons = VERIFIED_VERDICT, list[str]()
     try:
-        entry = _claimed_entry(submission, suite, directory)
+        entry = _claimed_entry(submission, suite, directory, test_seeds)
         for name, run in _prepare(entry, directory):
             result = load(run.out)
             reasons += _false_claims(submission, name, result, run)
@@ -122,6 +130,7 @@ def verify_submission(
         verdict = DIFFERING_VERDICT
     return Verification(
         submission=submission.sha256,
+        entry=entry_sha256,
         verdict=verdict,
         reasons=tuple(reasons),
         sample=sample,
@@ -137,35 +146,28 @@ def save_verification(verification: Verification, directory: Path) -> Path:
     return path
 
 
-def _claimed_entry(submission: Submission, suite: Suite, directory: Path) -> Entry:
+def _claimed_entry(
+    submission: Submission, suite: Suite, directory: Path, test_seeds: tuple[str, str] | None
+) -> Entry:
     """Return the entry that a submission claims to be.
 
     Raises:
         NotVerifiable: it is of another suite or version of uwsim.
         UwsimError: a claim is false.
     """
+    _check_results(submission, suite, directory)
     if submission.version != __version__:
         raise NotVerifiable(
             f"it was made with uwsim {submission.version}, and this is {__version__}; results of "
             "other versions may differ."
-        )
-    if submission.suite != suite.spec.name:
-        raise NotVerifiable(
-            f"it is of the suite {submission.suite!r:.60}; expected {suite.spec.name!r}."
         )
     if submission.seeds.split == TEST_SPLIT and submission.suite_hash != suite.sha256:
         raise NotVerifiable(
             f"its test seeds are of a suite file {submission.suite_hash[:19]}; this is "
             f"{suite.sha256[:19]}."
         )
-    if not submission.tasks:
-        raise ResultError("it has no task.")
     check_settings(submission.settings)
-    _check_seeds(submission.seeds, suite)
-    known_names = {task.name for task in suite.spec.tasks}
-    for name in submission.tasks:
-        if name not in known_names:
-            raise UnknownName("task", name, known_names)
+    _check_seeds(submission.seeds, suite, test_seeds)
     return Entry(
         suite=suite,
         algorithms={
@@ -182,9 +184,40 @@ def _claimed_entry(submission: Submission, suite: Suite, directory: Path) -> Ent
     )
 
 
-def _check_seeds(seeds: Seeds, suite: Suite) -> None:
+def _check_results(submission: Submission, suite: Suite, directory: Path) -> None:
+    """Raise UwsimError for a claim that the results or the suite prove false."""
+    if not submission.tasks:
+        raise ResultError("it has no task.")
+    if submission.suite != suite.spec.name:
+        raise NotVerifiable(
+            f"it is of the suite {submission.suite!r:.60}; expected {suite.spec.name!r}."
+        )
+    if reason := false_kind(submission, suite):
+        raise ResultError(f"{reason}.")
+    known_names = {task.name for task in suite.spec.tasks}
+    for name, task in submission.tasks.items():
+        if name not in known_names:
+            raise UnknownName("task", name, known_names)
+        file = task.algorithm.partition(":")[0]
+        if file.endswith(".py") and Path(file).name != file:
+            raise ResultError(f"{name}: {file!r:.60} is not in code/.")
+        version = load(directory / name).run.version
+        if version != submission.version:
+            raise ResultError(f"{name}: its result is of uwsim {version}.")
+
+
+def _check_seeds(seeds: Seeds, suite: Suite, test_seeds: tuple[str, str] | None) -> None:
     """Raise UwsimError if the seeds are not those of their split."""
     if seeds.split == TEST_SPLIT:
+        if test_seeds is None:
+            raise NotVerifiable(
+                "it has test seeds; add --date and --beacon of the organiser, not of its author."
+            )
+        if (seeds.date, seeds.beacon) != test_seeds:
+            raise ResultError(
+                f"its date and text are {seeds.date!r:.20} and {seeds.beacon!r:.60}; expected "
+                f"{test_seeds[0]!r} and {test_seeds[1]!r:.60}."
+            )
         expected = draw_test_seeds(suite, seeds.date, seeds.beacon, seeds.count)
     else:
         split = suite.split(seeds.split)
@@ -261,7 +294,9 @@ def _compare(
     on_level: OnLevel,
 ) -> list[str]:
     """Run trials again; return the differences, each in one line."""
-    outcome = verify(run.out, result, run, trials, executor=executor, on_level=on_level)
+    outcome = verify(
+        run.out, result, run, trials, executor=executor, on_level=on_level, compares_tracks=True
+    )
     reasons = [f"{name}: {difference}" for difference in outcome.differences[:MAX_REASONS]]
     changes = environment_differences(result, run.out, run.info) if reasons else {}
     return [*reasons, *(f"{name}: {change}" for change in changes.values())]

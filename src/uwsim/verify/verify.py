@@ -21,7 +21,7 @@ from ..base.rng import stream
 from ..errors import ResultError
 from ..results import journal, measures_file
 from ..results.leaves import leaves
-from ..results.motion.motion_track import load_track
+from ..results.motion.motion_track import load_track, unpack_track
 from ..results.result import Result
 from ..results.result_file import dumps
 from ..results.stored.stored_row import Record
@@ -86,6 +86,7 @@ def verify(
     *,
     executor: Executor | None = None,
     on_level: OnLevel = lambda: None,
+    compares_tracks: bool = False,
 ) -> Verification:
     """Check the consistency of a stored result, and replay some of its trials.
 
@@ -96,6 +97,8 @@ def verify(
         trials: the trials to replay.
         executor: the executor of the trials; None: they run in this process.
         on_level: the function that is called after each replayed level.
+        compares_tracks: True to compare the motion tracks of replays with those stored; an absent
+            one is a difference.
 
     Raises:
         UwsimError: a replay could not be executed.
@@ -117,6 +120,8 @@ def verify(
         if _has_journals(directory):
             for trial in trials:
                 _check_trial(report, directory, replay, trial)
+                if compares_tracks:
+                    _compare_track(report, directory, replay, trial)
         else:
             _check_rows(report, result, replay)
         _check_images(report, directory, replay.out)
@@ -186,6 +191,21 @@ def _check_tracks(report: Verification, directory: Path, plan: Plan) -> None:
             load_track(path)
         except ResultError as error:
             report.add(name, str(error).removeprefix(f"{path}: ").removesuffix("."))
+
+
+def _compare_track(report: Verification, directory: Path, replay: Run, trial: Trial) -> None:
+    """Compare the motion track of a trial, from which films are drawn, with that of its replay."""
+    stored_path, path = (
+        journal.track_path(folder, trial.index) for folder in (directory, replay.out)
+    )
+    if not path.is_file():
+        return
+    try:
+        is_equal = unpack_track(stored_path.read_bytes()) == unpack_track(path.read_bytes())
+    except (OSError, ValueError):
+        is_equal = False
+    if not is_equal:
+        report.add(f"{journal.FOLDER}/{path.name}", "is not the motion of the replay")
 
 
 def _incomplete_trials(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:

@@ -12,6 +12,7 @@ from ...base.terminal import clean_text, warn
 from ..options.help_texts import INPUT, OUTPUT, option
 from ..options.options import OutputOption, OverwriteOption
 from ..output.progress import progress
+from .seed_options import DrawnSeedOptions
 
 Submissions = Annotated[
     Path, typer.Argument(metavar="DIR", help="The folder with a subfolder for each submission.")
@@ -27,16 +28,16 @@ FILM_SPEED = 4.0
 def write_leaderboard(
     directory: Submissions,
     out: OutputOption,
+    seeds: DrawnSeedOptions,
     suite: Annotated[
-        str | None,
+        str,
         option(
             INPUT,
             "--suite",
             metavar="SUITE",
-            help="The suite, for descriptions and the order of tasks. [the bundled one of the "
-            "name that submissions state]",
+            help="The suite: its tasks, tracks and seeds are the conditions of the page.",
         ),
-    ] = None,
+    ] = "intervention",
     replays: Annotated[
         str,
         option(
@@ -56,16 +57,22 @@ def write_leaderboard(
 
     It has ranks with ties and intervals, over all tasks and in each, and a heat map of tasks and
     difficulty. Each task has success rates, failures with reasons, times to success and replays.
-    Each submission has a card; excluded ones have the reason. The page opens from disk, and can be
-    published as it is.
+    Each submission has a card; excluded ones have the reason. Only those that `uwsim suite verify`
+    has verified have a rank. The seeds are all of the suite's first split, unless options choose
+    others. The page opens from disk, and can be published as it is.
     The same submissions give the same bytes.
     """
     from ...results.directory import clear_directory
-    from ...suites.site.collect import collect_submissions
+    from ...suites.site.collect import Conditions, collect_submissions
     from ...suites.site.trials import notable_trials
     from ...suites.site.write import REPLAYS_FOLDER, SITE_FILES, choose_replays, write_site
+    from ...suites.suite import find_suite, read_suite
 
-    board = collect_submissions(directory, suite)
+    source = read_suite(find_suite(suite))
+    conditions = Conditions(
+        suite=source, seeds=seeds.read(source), is_short=seeds.public_seeds.is_short
+    )
+    board = collect_submissions(directory, conditions)
     pairs = choose_replays(board, replays)
     trials = [notable_trials(board.candidates[j].results[board.tasks[i].name]) for i, j in pairs]
     clear_directory(out, overwrite=overwrite, pattern=SITE_FILES, folders=(REPLAYS_FOLDER,))
@@ -84,7 +91,9 @@ def write_leaderboard(
     for entry in board.exclusions:
         print(clean_text(f"excluded: {entry.name}: {' '.join(entry.reasons)}"))
     n = len(board.candidates)
-    print(f"{n} submission{'s' * (n != 1)} compared; written: {page}")
+    n_others = sum(not candidate.is_verified for candidate in board.candidates)
+    addition = f", {n_others} not verified and without rank" if n_others else ""
+    print(f"{n} submission{'s' * (n != 1)} compared{addition}; written: {page}")
 
 
 def save_replay(directory: Path, trial: int, path: Path) -> None:

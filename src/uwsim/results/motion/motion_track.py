@@ -192,7 +192,7 @@ def track_bytes(
 def read_track(data: bytes) -> MotionTrack:
     """Read the content of the file of a track; raise ResultError if it is not a track."""
     try:
-        line, _, rest = _decompress(data).partition(b"\n")
+        line, _, rest = unpack_track(data).partition(b"\n")
         head = read_json(line)
         if head[FORMAT] not in VERSIONS:
             raise ValueError(f"found version {head[FORMAT]!r}")
@@ -217,7 +217,8 @@ def load_track(path: Path) -> MotionTrack:
         raise ResultError(f"{path}: {error}.") from None
 
 
-def _decompress(data: bytes) -> bytes:
+def unpack_track(data: bytes) -> bytes:
+    """Return the bytes in the file of a track without gzip; raise ValueError if it is damaged."""
     stream = zlib.decompressobj(wbits=31)
     try:
         content = stream.decompress(data, MAX_BYTES)

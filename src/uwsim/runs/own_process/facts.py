@@ -17,7 +17,7 @@ from ...algorithms.policy import is_policy
 
 @dataclass(frozen=True, kw_only=True)
 class AlgorithmFacts:
-    """What a run needs to know of the class of an algorithm."""
+    """The attributes of an algorithm's class that a run needs."""
 
     module: str
     """The module in which its process finds the class."""

@@ -17,7 +17,7 @@ class IsolatedAlgorithm:
     """An algorithm that its own process has described."""
 
     description: Description
-    """What the process says about the class."""
+    """The answer of the process about the class."""
     plugins: tuple[Plugin, ...]
     """The file of ``FILE.py:Class``; empty for ``module:Class``."""
     folder: Path

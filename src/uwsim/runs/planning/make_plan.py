@@ -76,7 +76,7 @@ def make_plan(request: PlanRequest) -> Plan:
     files = _apply_settings(files, pairs, errors)
     spec, scene = files.benchmark, files.scene
     algorithm_class: type[Algorithm] | AlgorithmFacts | None = None
-    isolated: IsolatedAlgorithm | None = None
+    isolated_program: IsolatedAlgorithm | None = None
     with errors.collect():
         if scene is not None and request.no_code:
             refuse_code(scene)
@@ -85,9 +85,13 @@ def make_plan(request: PlanRequest) -> Plan:
         name = request.algorithm or ""
         # a name that still has the prefix has an error, which has been collected
         if algorithm_class is None and not name.startswith(PREFIX):
-            isolated = isolated_algorithm(request, _algorithm_name(request, spec), parameters)
+            isolated_program = isolated_algorithm(
+                request, _algorithm_name(request, spec), parameters
+            )
             algorithm_class = (
-                _algorithm(request, files) if isolated is None else isolated.description.facts
+                _algorithm(request, files)
+                if isolated_program is None
+                else isolated_program.description.facts
             )
     with errors.collect():
         if scene is not None and request.udp_address is not None:
@@ -98,7 +102,7 @@ def make_plan(request: PlanRequest) -> Plan:
             )
     with errors.collect():
         check_client(request, parameters)
-    refusals = {} if isolated is None else isolated.description.refusals
+    refusals = {} if isolated_program is None else isolated_program.description.refusals
     check_parameters(algorithm_class, parameters, errors, refusals)
     mode: Mode = "sequential"
     with errors.collect():
@@ -126,8 +130,8 @@ def make_plan(request: PlanRequest) -> Plan:
             and not request.in_process
             and algorithm_class not in _bundled_algorithms(_algorithm_name(request, spec)),
             client=request.client,
-            folder=None if isolated is None else isolated.folder,
-            sources=None if isolated is None else isolated.description.sources,
+            folder=None if isolated_program is None else isolated_program.folder,
+            sources=None if isolated_program is None else isolated_program.description.sources,
         ),
         settings=tuple(pairs),
         mode=mode,
@@ -143,8 +147,8 @@ def make_plan(request: PlanRequest) -> Plan:
         inputs=inputs,
         plugins=(
             _add_program(files.plugins, _algorithm_name(request, spec))
-            if isolated is None
-            else (*files.plugins, *isolated.plugins)
+            if isolated_program is None
+            else (*files.plugins, *isolated_program.plugins)
         ),
     )
 

@@ -8,8 +8,10 @@ from pathlib import Path
 
 from ...analysis.overview.tasks import OverviewTask
 from ...results.result import Result
+from ..entry import Seeds
 from ..submission import Submission
 from ..suite import SuiteSpec
+from ..verification import VERIFIED_VERDICT
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +27,12 @@ class Candidate:
     results: Mapping[str, Result]
     """The results by task."""
     verdict: str
-    """The verdict of the last verification, if it is of this content."""
+    """The verdict of the last verification, or that the entry was changed after it."""
+
+    @property
+    def is_verified(self) -> bool:
+        """A flag for a submission that was verified, and not changed since."""
+        return self.verdict == VERIFIED_VERDICT
 
     @property
     def is_reference(self) -> bool:
@@ -47,8 +54,12 @@ class Exclusion:
 class Leaderboard:
     """The content of the page."""
 
-    suite: SuiteSpec | None
-    """The suite, for descriptions; None if its file is not found by the name."""
+    suite: SuiteSpec
+    """The suite."""
+    seeds: Seeds
+    """The seeds of all submissions."""
+    is_short: bool = False
+    """A flag for the middle level of each task alone."""
     candidates: tuple[Candidate, ...]
     """The compared submissions: by rank, then those that are not ranked (`standings`)."""
     exclusions: tuple[Exclusion, ...]

@@ -34,18 +34,19 @@ def render(board: Leaderboard, links: Links) -> str:
     names = [candidate.name for candidate in board.candidates]
     n_trials = sum(t.n_trials for c in board.candidates for t in c.submission.tasks.values())
     cpu_s = sum(c.submission.cpu_s for c in board.candidates)
-    first_submission = board.candidates[0].submission
-    seeds = first_submission.seeds
+    seeds = board.seeds
     statuses = all_statuses(board.tasks)
+    n_verified = sum(candidate.is_verified for candidate in board.candidates)
     n_references = sum(candidate.is_reference for candidate in board.candidates)
     return template("suite.html.j2").render(
-        title=first_submission.suite,
-        lead="" if board.suite is None else board.suite.description,
+        title=board.suite.name,
+        lead=board.suite.description,
         cards=[
             _card(
                 "submissions",
                 str(len(names) - n_references),
-                f"{count_text(n_references, 'reference')}, {len(board.exclusions)} excluded",
+                f"{count_text(n_references, 'reference')}, {n_verified} of all verified, "
+                f"{len(board.exclusions)} excluded",
             ),
             _card(
                 "trials",
@@ -58,10 +59,12 @@ def render(board: Leaderboard, links: Links) -> str:
                 "of all trials on the authors' machines, with the "
                 "start of each process; without programs outside",
             ),
-            _card("uwsim", first_submission.version, "version of the first submission"),
+            _card(
+                "uwsim", board.candidates[0].submission.version, "version of the first submission"
+            ),
         ],
         n_tasks=count_text(len(board.tasks), "task"),
-        is_short=first_submission.is_short,
+        is_short=board.is_short,
         rankings=rank_sections(board),
         reference=reference_section(board),
         overview=data_url(png(success_overview(overview_rows(board.tasks), names)), "png"),

@@ -15,7 +15,7 @@ from .standings import Standings, rank_candidates
 def rank_sections(board: Leaderboard) -> list[dict[str, Any]]:
     """Return the ranks over all tracks, and of each narrower track with several submissions."""
     sections = [_section(board, board.candidates, "Ranks", "All submissions of all tracks.")]
-    tracks = () if board.suite is None else board.suite.tracks
+    tracks = board.suite.tracks
     for track in tracks:
         members = [c for c in board.candidates if _is_within(c.submission.track, track, tracks)]
         if 1 < len(members) < len(board.candidates):
@@ -59,6 +59,8 @@ def _section(
          standings.partial_candidates),
         ("references of the suite, not ranked: success is over the tasks that each has",
          standings.references),
+        ("not verified, or changed since: not ranked; the numbers are those of the authors",
+         standings.unverified_candidates),
     ]  # fmt: skip
     note = "" if standings.ranks is None else standings.ranks.note
     return {

@@ -3,6 +3,7 @@
 A submission with a part of the tasks has no rank over all tasks: a task that was not run says
 nothing about the algorithm. Neither have the references (baselines, experts and control conditions
 of the suite), which are several algorithms under one name. Both are compared on common tasks.
+A submission that nobody has verified has no rank at all.
 """
 
 from __future__ import annotations
@@ -29,11 +30,18 @@ class Standings:
     """The submissions without all tasks, by the number of tasks and then by success."""
     references: tuple[Candidate, ...]
     """The references that are not ranked, in this order, too."""
+    unverified_candidates: tuple[Candidate, ...]
+    """The submissions that nobody has verified, which have no rank, in this order, too."""
 
     @property
     def all_candidates(self) -> tuple[Candidate, ...]:
         """The submissions of all groups."""
-        return (*self.ranked_candidates, *self.partial_candidates, *self.references)
+        return (
+            *self.ranked_candidates,
+            *self.partial_candidates,
+            *self.references,
+            *self.unverified_candidates,
+        )
 
     def rank_of(self, candidate: Candidate) -> Rank | None:
         """Return the rank of a submission; None if it has none."""
@@ -50,7 +58,7 @@ class Standings:
 
 
 def rank_candidates(candidates: Sequence[Candidate], tasks: Sequence[OverviewTask]) -> Standings:
-    """Rank the submissions that have results of all tasks.
+    """Rank the verified submissions that have results of all tasks that a verified one ran.
 
     Args:
         candidates: the submissions.
@@ -64,25 +72,30 @@ def rank_candidates(candidates: Sequence[Candidate], tasks: Sequence[OverviewTas
         name: sum(any(e.name == name for e in task.entries) for task in own_tasks) for name in names
     }
     ordered_candidates = sorted(candidates, key=lambda c: (-n_tasks[c.name], -success[c.name]))
-    ranks_references = len(tasks) == 1 and all(c.is_reference for c in candidates)
+    verified_candidates = [c for c in ordered_candidates if c.is_verified]
+    verified_names = {candidate.name for candidate in verified_candidates}
+    n_required = sum(bool(select_entries(task, verified_names).entries) for task in own_tasks)
+    ranks_references = len(tasks) == 1 and all(c.is_reference for c in verified_candidates)
     ranked_candidates = [
         candidate
-        for candidate in ordered_candidates
-        if n_tasks[candidate.name] == len(tasks)
+        for candidate in verified_candidates
+        if n_tasks[candidate.name] == n_required
         and (ranks_references or not candidate.is_reference)
     ]
     ranked_names = {candidate.name for candidate in ranked_candidates}
-    ranks = rank_algorithms([select_entries(task, ranked_names) for task in own_tasks])
+    ranked_tasks = [select_entries(task, ranked_names) for task in own_tasks]
+    ranks = rank_algorithms([task for task in ranked_tasks if task.entries])
     if ranks is not None:
         ranked_candidates.sort(key=lambda c: ranks.algorithms.index(c.name))
     other_candidates = [
-        candidate for candidate in ordered_candidates if candidate.name not in ranked_names
+        candidate for candidate in verified_candidates if candidate.name not in ranked_names
     ]
     return Standings(
         ranked_candidates=tuple(ranked_candidates),
         ranks=ranks,
         partial_candidates=tuple(c for c in other_candidates if not c.is_reference),
         references=tuple(c for c in other_candidates if c.is_reference),
+        unverified_candidates=tuple(c for c in ordered_candidates if not c.is_verified),
     )
 
 

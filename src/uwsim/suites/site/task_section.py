@@ -48,7 +48,7 @@ def task_section(
         links: the links to replays.
         statuses: the statuses of all tasks of the page, which determine the colours.
     """
-    specs = {} if board.suite is None else {spec.name: spec for spec in board.suite.tasks}
+    specs = {spec.name: spec for spec in board.suite.tasks}
     counts = endings(task)
     own_statuses = [s for s in statuses if any(n[s] for n in counts.values())]
     heads, rows = _level_rows(task)

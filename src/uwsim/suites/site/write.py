@@ -29,8 +29,8 @@ def choose_replays(board: Leaderboard, selection: str) -> list[tuple[int, int]]:
 
     Args:
         board: the submissions.
-        selection: ``none``, ``best`` for the one with most successes in each task, ``all``, or the
-            name of a submission.
+        selection: ``none``, ``best`` for the verified one with most successes in each task,
+            ``all``, or the name of a submission.
 
     Raises:
         UnknownName: there is no submission of that name.
@@ -42,7 +42,7 @@ def choose_replays(board: Leaderboard, selection: str) -> list[tuple[int, int]]:
     for i, task in enumerate(board.tasks):
         members = [names.index(entry.name) for entry in task.entries]
         n_ok = {j: board.candidates[j].submission.tasks[task.name].n_ok for j in members}
-        best_index = min(members, key=lambda j: (-n_ok[j], j))
+        best_index = min(members, key=lambda j: (not board.candidates[j].is_verified, -n_ok[j], j))
         pairs += [
             (i, j)
             for j in members
