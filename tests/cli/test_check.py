@@ -60,7 +60,7 @@ def test_a_root_that_nobody_knows_says_what_was_expected(
     file.write_text("<html/>")
     assert status(str(file)) == 2
     said = capsys.readouterr().out
-    assert "expected <UWSimScene>, <benchmark>, <robot> or <hydrodynamics>" in said
+    assert "expected <UWSimScene>, <benchmark>, <robot>, <hydrodynamics> or <suite>" in said
 
 
 CHECK = """

@@ -10,6 +10,7 @@ from uwsim.algorithms import ALGORITHMS
 from uwsim.assets.bundled import bundled_files
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.updaters import levels
+from uwsim.cli import main
 from uwsim.errors import AssetNotFound, BadSetting, SeveralErrors, UnknownName
 from uwsim.runs.planning.plan import chosen_levels
 from uwsim.suites.entry import check_settings, choose_algorithms, read_levels
@@ -22,11 +23,14 @@ SUITE = """<suite>
   <track> <name>c</name> </track>
   <task>
     <name>station-v1</name> <benchmark>station-keeping</benchmark>
-    <baseline>position-p</baseline>
+    <level>current=0.2</level> <failures>missed</failures>
+    <baseline>position-p</baseline> <hash>sha256:HASH</hash>
   </task>
-  <task> <name>circle-v2</name> <benchmark>circle</benchmark> </task>
+  <task>
+    <name>circle-v2</name> <benchmark>circle</benchmark> <baseline>position-pi</baseline>
+  </task>
 </suite>
-"""
+""".replace("HASH", "0" * 64)
 
 
 def write(folder: Path, text: str = SUITE) -> Path:
@@ -64,6 +68,17 @@ def test_a_track_without_sources_permits_all(suite: Suite) -> None:
         ("circle-v2", "station-v1", "twice"),
         ("<count>4</count>", "<count>0</count>", "count"),
         ("<name>validation</name>", "<name>test</name>", "date"),
+        ("<count>4", "<first>2147483645</first><count>4", "ends with the seed 2147483648"),
+        ("<failures>missed", "<failures>mised", "no status 'mised'.*'missed'"),
+        ("<failures>missed", "<failures>missed missed", "'missed' is given twice"),
+        ("current=0.2", "curent=0.2", "'curent' is not swept by station-keeping.*'current'"),
+        ("current=0.2", "current=0.21", "the nearest is current=0.2"),
+        ("current=0.2", "current=1e999", "expected NAME=VALUE"),
+        ("current=0.2", "current=e", "expected NAME=VALUE"),
+        ("sha256:0", "sha256:", "64 digits"),
+        ("<baseline>position-pi</baseline>", "", "has no <baseline>"),
+        ("<baseline>position-p</baseline>", "<baseline>pi</baseline>" * 2, "'pi' is given twice"),
+        ("circle-v2", "station-v2", "several versions"),
     ],
 )
 def test_an_error_names_the_line_and_what_is_expected(
@@ -81,7 +96,16 @@ def test_all_errors_come_at_once(tmp_path: Path) -> None:
     text = SUITE.replace("virtualCamera", "camera").replace("position-p", "nobody")
     with pytest.raises(SuiteError) as error:
         read_suite(write(tmp_path, text))
-    assert len(str(error.value).splitlines()) == 2
+    assert len(str(error.value).splitlines()) == 3
+
+
+def test_check_knows_suite_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write(tmp_path)
+    assert main(["check", str(path)]) == 0
+    assert "no errors" in capsys.readouterr().out
+    write(tmp_path, SUITE.replace("missed", "mised"))
+    assert main(["check", str(path)]) == 2
+    assert "small.xml:6: <failures>" in capsys.readouterr().out
 
 
 def test_a_suite_that_does_not_exist_has_an_error_with_the_nearest_name() -> None:

@@ -81,8 +81,8 @@ def check_file(
     if root == "hydrodynamics":
         return _check_hydrodynamics(file)
     message = (
-        f"the root element is {format_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
-        "<hydrodynamics>"
+        f"the root element is {format_tag(root)}; expected <{ROOT}>, <benchmark>, <robot>, "
+        "<hydrodynamics> or <suite>"
     )
     if root.startswith("{") and node.prefix is None:
         message += "; xmlns=... sets a namespace of all elements: write xmlns:u=..."

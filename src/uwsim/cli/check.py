@@ -18,6 +18,7 @@ from ..checks.benchmark_tables import read_plugins
 from ..errors import Diagnostic, ErrorCollector
 from ..runs.planning.option_values import pairs_of
 from ..scene.settings import xacro_arguments
+from ..suites.suite import check_suite
 from .exit_status import INVALID_INPUT
 from .options.completion import checked_names, complete_names, scene_names
 from .options.help_texts import INPUT, option
@@ -75,7 +76,7 @@ def check(
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
 ) -> None:
-    """Report all errors of scene, robot, hydrodynamics and benchmark files, with line numbers.
+    """Report all errors of scene, robot, hydrodynamics, benchmark and suite files, with lines.
 
     With --ardupilot, mirrored, exchanged and reversed thrusters of a vehicle are errors, too.
 
@@ -94,7 +95,9 @@ def check(
     paths = [resolve_bundled(file) for file in files]
     scene = None if scene is None else resolve_bundled(scene)
     reports = {
-        str(file): check_file(
+        str(file): errors
+        if (errors := check_suite(file)) is not None
+        else check_file(
             file,
             is_strict=is_strict,
             data_path=folders,

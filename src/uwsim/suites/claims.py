@@ -9,7 +9,8 @@ from ..results.result import Result
 from ..runs.own_process.program import is_outside
 from .entry import task_hash
 from .submission import Submission, TaskEntry
-from .suite import Suite, TaskSpec
+from .suite import Suite
+from .suite_spec import TaskSpec
 
 
 def false_kind(submission: Submission, suite: Suite) -> str | None:

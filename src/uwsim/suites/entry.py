@@ -17,7 +17,8 @@ from ..runs.planning.plan import Plan
 from ..runs.planning.plan_request import PlanRequest
 from ..runs.prepare import prepare_runs
 from ..runs.run import Run
-from .suite import Suite, TaskSpec, TrackSpec
+from .suite import Suite
+from .suite_spec import TaskSpec, TrackSpec
 
 PARAMETER_PREFIX = "algorithm."
 """The beginning of the settings that an entry may have: those of its algorithm."""

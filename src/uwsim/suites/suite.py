@@ -30,21 +30,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ..algorithms import ALGORITHMS
 from ..assets.bundled import bundled_files
 from ..base.files.input_files import compute_hash
 from ..devices import DEVICES
-from ..errors import AssetNotFound, FileError, UnknownName, choices, did_you_mean
-from ..runs.tracks.track import Track
-from ..schema import Diagnostics, Spec, check_head, element, parse, read
+from ..errors import AssetNotFound, Diagnostic, FileError, UnknownName, choices, did_you_mean
+from ..schema import Diagnostics, Spec, check_head, parse, read
 from ..schema.names import prefixed_name
 from ..sensors import SENSORS
 from ..topics import INTERFACES
+from .suite_checks import check_splits, check_tasks
+from .suite_spec import SplitSpec, SuiteSpec, TaskSpec, TrackSpec
 
 ROOT = "suite"
 """The name of the root element."""
-MAX_SEED = 2**31 - 1
-"""The greatest seed of a split."""
 TEST_SPLIT = "test"
 """The name of the split whose seeds follow from a date and a public text (`draw_test_seeds`)."""
 TASK_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*-v[1-9][0-9]*", re.ASCII)
@@ -55,81 +53,6 @@ NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", re.ASCII)
 
 class SuiteError(FileError):
     """An invalid suite file."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class SplitSpec(Spec):
-    """A ``<split>``: consecutive public seeds."""
-
-    name: str
-    """The name of the split, such as validation."""
-    first: int = element(default=0, minimum=0, maximum=MAX_SEED)
-    """The first seed."""
-    count: int = element(default=10, minimum=1, maximum=10_000)
-    """The number of seeds."""
-
-    @property
-    def seeds(self) -> range:
-        """The seeds of the split."""
-        return range(self.first, self.first + self.count)
-
-
-@dataclass(frozen=True, kw_only=True)
-class TrackSpec(Spec):
-    """A ``<track>``: the sensors and devices whose messages an algorithm may receive."""
-
-    name: str
-    """The name of the track, such as a."""
-    description: str = ""
-    """The sensors in words."""
-    sources: tuple[str, ...] = element("source", default=())
-    """The elements of sensors and devices, such as virtualCamera, or of interfaces of a vehicle,
-    such as ArmToROSJointState; none: the track permits all topics, those with the truth, too."""
-
-    @property
-    def rule(self) -> Track | None:
-        """The rule for topics; None for a track that permits all topics."""
-        return Track(name=self.name, sources=self.sources) if self.sources else None
-
-
-@dataclass(frozen=True, kw_only=True)
-class TaskSpec(Spec):
-    """A ``<task>``: a benchmark with a version, and the algorithms of its reference scores."""
-
-    name: str
-    """The name with the version, such as station-v1."""
-    benchmark: str
-    """The benchmark: a file relative to the suite, or a bundled name."""
-    description: str = ""
-    """The goal, in one sentence."""
-    levels: tuple[str, ...] = element("level", default=())
-    """Levels of the sweep as NAME=VALUE, such as current=0.2; none: all levels."""
-    failures: str = ""
-    """The statuses of failed trials, separated by blanks."""
-    baselines: tuple[str, ...] = element("baseline", default=())
-    """The algorithms of the reference scores, the simplest first."""
-    control: str | None = None
-    """The algorithm of the control condition, which does not act."""
-    expert: str | None = None
-    """The scripted expert, which may use the truth; None without one."""
-    hash: str | None = None
-    """The hash of the task's files at this version (`task_hash`); None if it is not recorded."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class SuiteSpec(Spec):
-    """The content of a suite file."""
-
-    name: str
-    """The name of the suite."""
-    description: str = ""
-    """A sentence about the tasks."""
-    splits: tuple[SplitSpec, ...] = element("split")
-    """The public seeds; the first split is the default."""
-    tracks: tuple[TrackSpec, ...] = element("track")
-    """The tracks by sensors."""
-    tasks: tuple[TaskSpec, ...] = element("task")
-    """The tasks, in their order in tables."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -218,10 +141,22 @@ def read_suite(path: Path) -> Suite:
         _check_names(spec, diagnostics)
         _check_open_track(spec, diagnostics)
         _check_sources(spec.tracks, diagnostics)
-        _check_tasks(spec.tasks, path.parent, diagnostics)
+        check_splits(spec.splits, diagnostics)
+        check_tasks(spec.tasks, path.parent, diagnostics)
     diagnostics.check(SuiteError)
     assert spec is not None
     return Suite(spec=spec, path=path, sha256=compute_hash(path))
+
+
+def check_suite(path: Path) -> list[Diagnostic] | None:
+    """Return the errors of a suite file; None if its root element is another one."""
+    try:
+        if parse(path).root.tag != ROOT:
+            return None
+        read_suite(path)
+    except FileError as error:
+        return list(error.diagnostics)
+    return []
 
 
 def source_kinds() -> tuple[str, ...]:
@@ -267,22 +202,3 @@ def _check_sources(tracks: Sequence[TrackSpec], diagnostics: Diagnostics) -> Non
                     track,
                     f"<source>: no sensor or device is called {source!r}.{choices(source, kinds)}",
                 )
-
-
-def _check_tasks(tasks: Sequence[TaskSpec], folder: Path, diagnostics: Diagnostics) -> None:
-    benchmarks = bundled_files("benchmarks")
-    for task in tasks:
-        if task.benchmark not in benchmarks and not (folder / task.benchmark).is_file():
-            diagnostics.error(
-                task,
-                f"<benchmark>: {task.benchmark!r} is neither a file nor one of the bundled "
-                f"benchmarks.{choices(task.benchmark, benchmarks)}",
-            )
-        for name in (*task.baselines, task.control, task.expert):
-            if name is not None and ":" not in name and name not in ALGORITHMS:
-                diagnostics.error(
-                    task, f"no algorithm is called {name!r}.{choices(name, ALGORITHMS)}"
-                )
-        for level in task.levels:
-            if not re.fullmatch(r"\w+=[-+0-9.eE]+", level, re.ASCII):
-                diagnostics.error(task, f"<level> is {level!r}; expected NAME=VALUE, as fog=0.5")

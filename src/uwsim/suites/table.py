@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .entry import Entry, Seeds
-from .suite import Suite, TaskSpec
+from .suite import Suite
+from .suite_spec import TaskSpec
 
 
 def reference_entries(suite: Suite, seeds: Seeds, *, is_short: bool) -> Iterator[tuple[str, Entry]]:

@@ -50,6 +50,9 @@ class GraspSpec(MeasureSpec):
     """A ``<u:grasp>`` element of a benchmark file."""
 
     columns: ClassVar[tuple[str, ...]] = ("height", "force_on_object", "force_on_ground")
+    statuses: ClassVar[tuple[str, ...]] = (
+        *("collision", "dropped", "missed", "not found", "lost target", "timeout"),
+    )
 
     target: str = element(refers_to="contacts")
     """The name of the object."""

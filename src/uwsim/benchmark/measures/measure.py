@@ -26,6 +26,8 @@ class MeasureSpec(Spec, abc.ABC):
     """The number that a missing value adds to the sum of error flags of a row (compatibility
     ``rows``: as in the original UWSim, result.dat has only rows whose sum is 0)."""
 
+    statuses: ClassVar[tuple[str, ...]] = ()
+    """The statuses of failures that the measure itself may give a level."""
     columns: ClassVar[tuple[str, ...]] = ()
     """The names of further numbers of the log that a reward can use, as ``NAME_COLUMN``."""
 

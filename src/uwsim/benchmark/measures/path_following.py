@@ -61,6 +61,7 @@ class PathFollowingSpec(MeasureSpec):
 
     values: ClassVar[tuple[str, ...]] = VALUES
     error_flag: ClassVar[int] = -1
+    statuses: ClassVar[tuple[str, ...]] = ("lost", "timeout")
 
     target: str = element(refers_to="body")
     """The route of the body."""

@@ -28,6 +28,7 @@ class ReachSpec(MeasureSpec):
     """A ``<u:reach>`` element of a benchmark file."""
 
     columns: ClassVar[tuple[str, ...]] = ("distance",)
+    statuses: ClassVar[tuple[str, ...]] = ("timeout",)
 
     from_: str = element("from", refers_to="body")
     """The route of the body that reaches, such as the frame of a tool."""

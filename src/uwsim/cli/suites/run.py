@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from ...runs.run import Run
     from ...suites.entry import Entry
     from ...suites.submission import Card
-    from ...suites.suite import TaskSpec
+    from ...suites.suite_spec import TaskSpec
 
 
 @dataclass(frozen=True, kw_only=True)

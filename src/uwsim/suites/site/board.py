@@ -10,7 +10,7 @@ from ...analysis.overview.tasks import OverviewTask
 from ...results.result import Result
 from ..entry import Seeds
 from ..submission import Submission
-from ..suite import SuiteSpec
+from ..suite_spec import SuiteSpec
 from ..verification import VERIFIED_VERDICT
 
 

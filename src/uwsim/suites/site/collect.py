@@ -20,7 +20,8 @@ from ..claims import false_claims, false_kind
 from ..entry import Seeds
 from ..entry_files import VERDICT_FILE, entry_hash, read_plain_file
 from ..submission import FILE, Submission, load_submission
-from ..suite import TEST_SPLIT, Suite, SuiteSpec
+from ..suite import TEST_SPLIT, Suite
+from ..suite_spec import SuiteSpec
 from ..verification import DIFFERING_VERDICT, UNKNOWN_VERDICT, VERIFIED_VERDICT
 from .board import Candidate, Exclusion, Leaderboard
 from .standings import rank_candidates

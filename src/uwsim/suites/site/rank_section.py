@@ -7,7 +7,7 @@ from typing import Any
 
 from ...analysis.overview.ranks import CommonTasks, compare_algorithms, places_text, success_of
 from ..campaign import cpu_time_text
-from ..suite import TrackSpec
+from ..suite_spec import TrackSpec
 from .board import Candidate, Leaderboard
 from .standings import Standings, rank_candidates
 
