@@ -49,7 +49,12 @@ def test_holes_that_overlap_or_reach_over_the_edge_leave_no_twine() -> None:
 
 
 @pytest.mark.parametrize(
-    ("holes", "message"), [((1.0, 2.0), "has 2 numbers"), ((0.0, 0.0, 0.0), "radius of 0 or below")]
+    ("holes", "message"),
+    [
+        ((1.0, 2.0), "has 2 numbers"),
+        ((0.0, 0.0, 0.0), "radius of 0 or below"),
+        ((0.0, 0.0, 9.0), "cuts away the whole net"),
+    ],
 )
 def test_wrong_holes_are_an_error(holes: tuple[float, ...], message: str) -> None:
     (error,) = replace(NET, holes=holes).errors()

@@ -36,6 +36,8 @@ MAX_TWINES = 20_000
 """The greatest number of twines of a net before its holes are cut."""
 MIN_TWINE = 0.01
 """The length below which a piece of twine between holes is left out [m]."""
+MIN_AXIS = 1e-6
+"""The least length of the axis of a joint, by its greatest component [1]."""
 MAX_DOCK = 100.0
 """The greatest inner dimension of a dock [m]."""
 MAX_CONTACT_ERROR = 10.0
@@ -111,15 +113,16 @@ class ObjectJointSpec(Spec):
     """
 
     axis: Triple = element(namespaced=True, default=(0.0, 0.0, 1.0), minimum=-1.0, maximum=1.0)
-    """The direction of the axis in the object's frame, of any length above 0 [1]."""
+    """The direction of the axis in the object's frame, of any length from `MIN_AXIS` [1]."""
     lower: float | None = element(
         namespaced=True, default=None, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """The position of the lower stop [rad or m]; without it and `<u:upper>` there are no stops."""
+    """The position of the lower stop, at most 0 [rad or m]; without it and `<u:upper>` there are no
+    stops."""
     upper: float | None = element(
         namespaced=True, default=None, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """The position of the upper stop [rad or m]."""
+    """The position of the upper stop, at least 0 [rad or m]."""
     friction: float = element(namespaced=True, default=0.0, minimum=0.0, maximum=1e6)
     """The dry friction F [N m or N]."""
     damping: float = element(namespaced=True, default=0.0, minimum=0.0, maximum=1e6)
@@ -129,12 +132,14 @@ class ObjectJointSpec(Spec):
 
     def errors(self) -> Iterator[str]:
         """Yield errors of values that are valid one by one, but not together."""
-        if not any(self.axis):
-            yield "<u:axis> is 0 0 0; expected a direction"
+        if max(map(abs, self.axis)) < MIN_AXIS:
+            yield f"<u:axis> is {'{:g} {:g} {:g}'.format(*self.axis)}; expected a direction"
         if (self.lower is None) != (self.upper is None):
             yield "one of <u:lower> and <u:upper> is missing; expected both or neither"
         elif self.lower is not None and self.upper is not None and not self.lower < self.upper:
             yield f"<u:lower> {self.lower:g} is not below <u:upper> {self.upper:g}"
+        elif (self.lower or 0.0) > 0.0 or (self.upper or 0.0) < 0.0:
+            yield f"<u:lower> {self.lower:g} to <u:upper> {self.upper:g} excludes 0, the start"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -235,6 +240,8 @@ class NetSpec(Spec):
             yield "<u:holes> has a radius of 0 or below; expected positive radii"
         if (self.width + self.height) / self.mesh_side > MAX_TWINES:
             yield f"<u:meshSide> makes more than {MAX_TWINES} twines; choose a larger one"
+        elif self.holes and len(self.holes) % 3 == 0 and not len(self.twines):
+            yield "<u:holes> cuts away the whole net; expected smaller holes"
 
     @property
     def circles(self) -> Array:

@@ -107,7 +107,12 @@ def test_only_objects_with_joints_have_a_position(tmp_path: Path) -> None:
             {"joint": HINGE.format("<u:lower>1</u:lower> <u:upper>1</u:upper>")},
             "<u:lower> 1 is not below <u:upper> 1",
         ),
+        (
+            {"joint": HINGE.format("<u:lower>1</u:lower> <u:upper>2</u:upper>")},
+            "<u:lower> 1 to <u:upper> 2 excludes 0, the start",
+        ),
         ({"joint": HINGE.format("").replace("<y>1", "<y>0")}, "<u:axis> is 0 0 0"),
+        ({"joint": HINGE.format("").replace("<y>1", "<y>1e-300")}, "<u:axis> is 0 1e-300 0"),
         ({"joint": HINGE.format(""), "physics": ""}, "expected <physics> with a <mass>"),
         ({"joint": HINGE.format(""), "dynamics": ""}, "expected a vehicle with <u:dynamics>"),
     ],
