@@ -8,12 +8,16 @@ import numpy as np
 import pytest
 
 from tests.support.opened import open_scene
+from uwsim.assets.bundled import bundled_files
 from uwsim.base import rng
-from uwsim.bus import Node
+from uwsim.bus import Bus, Node
 from uwsim.devices.topic_link import TopicLinkSpec, TopicRoute, TopicRouteSpec
 from uwsim.errors import NotAllowed
 from uwsim.messages import Float64, Odometry, Twist, TwistStamped, Vector3, seconds
-from uwsim.runs.tracks.topic_sources import command_topics, topic_sources
+from uwsim.runs.planning.make_plan import make_plan
+from uwsim.runs.planning.plan_request import PlanRequest
+from uwsim.runs.tracks.topic_sources import command_topics, topic_sources, topics_on_board
+from uwsim.runs.tracks.withheld_topics import withhold_topics
 from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
@@ -153,3 +157,20 @@ def test_a_relayed_topic_belongs_to_the_sensor_of_its_source(scene: SceneSpec) -
 def test_a_pilot_steers_over_the_link(scene: SceneSpec) -> None:
     with open_scene(scene, is_blind=True) as simulation:
         assert pilot_topics(simulation)["twist_topic"] == "/operator/twist"
+
+
+def test_all_topics_of_a_vehicle_are_behind_its_link() -> None:
+    scene = read_scene(bundled_files("scenes")["teleoperation-scene"])
+    topics = topics_on_board(scene)
+    assert set(topics) == {
+        f"bluerov2/{name}" for name in ("odom", "camera", "camera_info", "imu", "depth", "dvl")
+    }
+    assert set(topics.values()) == {"operator"}
+    assert topics_on_board(read_scene(bundled_files("scenes")["open-water-scene"])) == {}
+
+
+def test_an_operator_cannot_subscribe_to_the_camera_on_board() -> None:
+    bus = Bus()
+    withhold_topics(make_plan(PlanRequest(benchmark="teleoperation", algorithm="nothing")), bus)
+    for name in ("bluerov2/camera", "bluerov2/odom"):
+        assert "behind the link 'operator'" in str(bus.hidden_reason(name))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...devices.device import DeviceSpec
+from ...devices.topic_link import TopicLinkSpec
 from ...scene.spec import SceneSpec
 from ...schema.names import prefixed_name
 from ...topics import InterfaceSpec, element_name
@@ -28,6 +29,30 @@ def topic_sources(scene: SceneSpec) -> dict[str, str]:
     }
     kinds |= {topic: kind for topic, kind, is_read in _device_topics(scene) if not is_read}
     return kinds | {topic: kinds[source] for topic, source in _relays(scene) if source in kinds}
+
+
+def topics_on_board(scene: SceneSpec) -> dict[str, str]:
+    """Return the link of each topic of a vehicle with a ``<u:topicLink>``, by topic.
+
+    These are the topics that its sensors, devices and interfaces publish, whether the link reports
+    them or not; the link's own topics are those of the operator.
+    """
+    links: dict[str, str] = {}
+    for vehicle in scene.vehicles:
+        names = {getattr(part, "name", None) for _, part in vehicle.all_parts()} - {None}
+        for link in vehicle.parts_of(TopicLinkSpec)[:1]:
+            for interface in unwrap_interfaces(scene.ros_interfaces):
+                part_name = getattr(interface, "camera_name", None) or getattr(
+                    interface, "name", None
+                )
+                is_own = getattr(interface, "vehicle_name", None) == vehicle.name
+                if not interface.subscribes and (is_own or part_name in names):
+                    links |= dict.fromkeys(_topics_of(interface), link.name)
+            for _, part in vehicle.all_parts():
+                if isinstance(part, DeviceSpec) and not isinstance(part, TopicLinkSpec):
+                    topics = [topic for topic in part.topics if not topic.is_subscribed]
+                    links |= {topic.name.strip().lstrip("/"): link.name for topic in topics}
+    return links
 
 
 def command_topics(scene: SceneSpec) -> frozenset[str]:

@@ -6,7 +6,7 @@ from ...algorithms.policy import OBSERVATION
 from ...bus import Bus
 from ..planning.plan import Plan
 from ..trial.policy_channel import agents_of
-from .topic_sources import command_topics, topic_sources
+from .topic_sources import command_topics, topic_sources, topics_on_board
 
 SIMULATION_SOURCE = "of the simulation itself"
 """The source of a topic that no sensor or device publishes."""
@@ -15,10 +15,15 @@ SIMULATION_SOURCE = "of the simulation itself"
 def withhold_topics(plan: Plan, bus: Bus) -> None:
     """Hide the topics that the track of a plan does not permit, before its algorithm starts.
 
+    In any track, the topics of a vehicle with a ``<u:topicLink>`` are hidden: an operator is not on
+    board. The topics that the link reports have reasons of their own.
+
     Permitted are the topics of the kinds of sensors and devices that the track lists, and topics
     with commands to the scene. All other topics that the simulation publishes are hidden, also
     those of no sensor, such as ``/tf`` and the observations of ``<u:environment>``.
     """
+    for topic, link in topics_on_board(plan.scene).items():
+        bus.hide_topic(topic, f"is on board; the algorithm is behind the link {link!r}")
     if plan.track is None:
         return
     for topic, source in withheld_topics(plan, bus).items():
