@@ -41,7 +41,7 @@ def test_a_file_that_changes_the_simulator_changes_no_row_and_no_verdict(
     (tmp_path / "cheat.py").write_text(CHEAT)
     (tmp_path / "helper.py").write_text("GAIN = 1.1\n")
     words = ["--algorithm", f"near={tmp_path}/cheat.py:Cheat", "--include", f"{tmp_path}/helper.py"]
-    entry = run_suite(small_suite, tmp_path / "entry", *words, "--track", "a", "--short")
+    entry = run_suite(small_suite, tmp_path / "entry", *words, "--track", "a", "--short", status=3)
     result = load(entry / "near-v1")
     assert set(result.values("status")) == {"algorithm error"}
     assert set(result.inputs.algorithm or {}) == {"cheat.py", "helper.py"}
