@@ -36,7 +36,7 @@ def task_table() -> str:
             ", ".join(f"`{name}`" for name in task.baselines),
             f"`{task.control}`" if task.control else "",
             f"`{task.expert}`" if task.expert else "",
-            ", ".join(f"`{status}`" for status in task.failures.split()),
+            ", ".join(f"`{status}`" for status in task.failures),
         )
         for task in tasks
     ]

@@ -23,7 +23,7 @@ SUITE = """<suite>
   <track> <name>c</name> </track>
   <task>
     <name>station-v1</name> <benchmark>station-keeping</benchmark>
-    <level>current=0.2</level> <failures>missed</failures>
+    <level>current=0.2</level> <failure>missed</failure>
     <baseline>position-p</baseline> <hash>sha256:HASH</hash>
   </task>
   <task>
@@ -69,8 +69,8 @@ def test_a_track_without_sources_permits_all(suite: Suite) -> None:
         ("<count>4</count>", "<count>0</count>", "count"),
         ("<name>validation</name>", "<name>test</name>", "date"),
         ("<count>4", "<first>2147483645</first><count>4", "ends with the seed 2147483648"),
-        ("<failures>missed", "<failures>mised", "no status 'mised'.*'missed'"),
-        ("<failures>missed", "<failures>missed missed", "'missed' is given twice"),
+        ("<failure>missed", "<failure>mised", "no status 'mised'.*'missed'"),
+        ("<failure>missed", "<failure>missed</failure> <failure>missed", "'missed' is given twice"),
         ("current=0.2", "curent=0.2", "'curent' is not swept by station-keeping.*'current'"),
         ("current=0.2", "current=0.21", "the nearest is current=0.2"),
         ("current=0.2", "current=1e999", "expected NAME=VALUE"),
@@ -105,7 +105,7 @@ def test_check_knows_suite_files(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert "no errors" in capsys.readouterr().out
     write(tmp_path, SUITE.replace("missed", "mised"))
     assert main(["check", str(path)]) == 2
-    assert "small.xml:6: <failures>" in capsys.readouterr().out
+    assert "small.xml:6: <failure>" in capsys.readouterr().out
 
 
 def test_a_suite_that_does_not_exist_has_an_error_with_the_nearest_name() -> None:

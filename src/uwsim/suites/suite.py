@@ -14,7 +14,7 @@
       <task>
         <name>station-v1</name> <benchmark>station-keeping</benchmark>
         <description>Hold a place in a current whose direction swings.</description>
-        <failures>missed</failures>
+        <failure>missed</failure>
         <baseline>position-p</baseline> <baseline>position-pi</baseline>
         <control>nothing</control>
       </task>

@@ -127,16 +127,14 @@ def _level_errors(task: TaskSpec, benchmark: BenchmarkSpec) -> Iterator[str]:
 
 
 def _failure_errors(task: TaskSpec, benchmark: BenchmarkSpec) -> Iterator[str]:
-    """Yield errors of ``<failures>``: statuses that the benchmark cannot give a trial."""
+    """Yield errors of each ``<failure>``: statuses that the benchmark cannot give a trial."""
     statuses = list(GENERAL_STATUSES)
     for spec in benchmark.measures:
         statuses += spec.statuses
         if isinstance(spec, OutcomeSpec):
             statuses += [MISSED_STATUS, *(failure.status for failure in spec.failure)]
-    words = task.failures.split()
-    yield from _repetitions("failures", words)
-    for word in words:
-        if word not in statuses:
-            yield (
-                f"<failures>: {task.benchmark} has no status {word!r:.60}.{choices(word, statuses)}"
-            )
+    yield from _repetitions("failure", task.failures)
+    for name in task.failures:
+        if name not in statuses:
+            choice = choices(name, statuses)
+            yield f"<failure>: {task.benchmark} has no status {name!r:.60}.{choice}"

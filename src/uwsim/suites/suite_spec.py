@@ -58,8 +58,8 @@ class TaskSpec(Spec):
     """The goal, in one sentence."""
     levels: tuple[str, ...] = element("level", default=())
     """Levels of the sweep as NAME=VALUE, such as current=0.2; none: all levels."""
-    failures: str = ""
-    """The statuses of failed trials, separated by blanks."""
+    failures: tuple[str, ...] = element("failure", default=())
+    """The statuses of failed trials."""
     baselines: tuple[str, ...] = element("baseline", default=())
     """The algorithms of the reference scores, the simplest first."""
     control: str | None = None

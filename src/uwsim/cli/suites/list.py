@@ -96,7 +96,7 @@ def suite_document(suite: Suite) -> dict[str, object]:
                 "benchmark": task.benchmark,
                 "description": task.description,
                 "levels": list(task.levels),
-                "failures": task.failures.split(),
+                "failures": list(task.failures),
                 "baselines": list(task.baselines),
                 "control": task.control,
                 "expert": task.expert,
