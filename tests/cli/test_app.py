@@ -13,7 +13,7 @@ from uwsim.base import terminal
 from uwsim.base.exceptions import convert_to_run_failed
 from uwsim.base.numerics import compiling
 from uwsim.cli import COMMANDS, app, exit_status, main
-from uwsim.cli.app import SUITE_COMMANDS
+from uwsim.cli.suites.commands import SUITE_COMMANDS
 
 
 def uwsim(*arguments: str) -> subprocess.CompletedProcess[str]:

@@ -6,10 +6,8 @@ the requested one is imported, so that ``uwsim --help`` takes less than 0.3 s.
 
 from __future__ import annotations
 
-import importlib
 import sys
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from typing import Annotated
 
 import typer
@@ -18,76 +16,10 @@ from ..base.terminal import suppress_cast_warnings
 from ..version import __version__
 from .exit_status import INTERRUPT_STATUS, exit_status, format_error
 from .old_options import reject_old_options
+from .options.command import Command
 from .options.completion import typed_words
 from .options.help_texts import HELP_NAMES, ErrorCollectingCommand
-from .options.option_groups import flatten_options
-
-
-@dataclass(frozen=True, kw_only=True)
-class Command:
-    """A command of ``uwsim``, which is imported only when it runs."""
-
-    module: str
-    """The name of the command's module in this package."""
-    function: str
-    """The name of the function in that module, whose docstring is the help of the command."""
-    summary: str
-    """The summary in one line for ``uwsim --help``."""
-    examples: tuple[str, ...]
-    """The examples that ``uwsim COMMAND --help`` shows."""
-    subcommands: Mapping[str, Command] = field(default_factory=dict)
-    """The commands of a group by their second word; empty if it is no group."""
-
-    def load(self) -> Callable[..., object]:
-        """Import the module and return its function."""
-        module = importlib.import_module(f".{self.module}", __package__)
-        return flatten_options(getattr(module, self.function))
-
-
-SUITE_COMMANDS: dict[str, Command] = {
-    "list": Command(
-        module="suites.list",
-        function="list_tasks",
-        summary="List the bundled suites, or the tasks and tracks of one.",
-        examples=("uwsim suite list", "uwsim suite list intervention"),
-    ),
-    "run": Command(
-        module="suites.run",
-        function="run_entry",
-        summary="Run an algorithm in the tasks of a suite.",
-        examples=(
-            "uwsim suite run intervention --algorithm position-pi --tasks station-v1,circle-v1 "
-            "--out entry",
-            "uwsim suite run intervention --algorithm station-v1=my_control.py:MyControl "
-            "--short --out entry",
-        ),
-    ),
-    "seeds": Command(
-        module="suites.seeds",
-        function="print_seeds",
-        summary="Print the seeds of the split test.",
-        examples=("uwsim suite seeds intervention --date 2027-01-01 --beacon 4f1c8e",),
-    ),
-    "site": Command(
-        module="suites.site",
-        function="write_leaderboard",
-        summary="Write the page of a leaderboard.",
-        examples=("uwsim suite site entries -o page", "uwsim suite site entries --seeds 3 -o page"),
-    ),
-    "table": Command(
-        module="suites.table",
-        function="write_reference_table",
-        summary="Run the baselines, experts and controls of a suite.",
-        examples=("uwsim suite table intervention --workers 2 --out table",),
-    ),
-    "verify": Command(
-        module="suites.verify",
-        function="verify_submissions",
-        summary="Check submissions, and run a share of their trials again.",
-        examples=("uwsim suite verify entry", "uwsim suite verify entries/* --share 0.05"),
-    ),
-}
-"""The commands of ``uwsim suite``."""
+from .suites.commands import SUITE_COMMANDS
 
 COMMANDS: dict[str, Command] = {
     "bathymetry": Command(
