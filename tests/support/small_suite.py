@@ -48,7 +48,7 @@ SUITE = """<suite>
   <track> <name>c</name> </track>
   <task>
     <name>near-v1</name> <benchmark>near.xml</benchmark> <description>Stay near.</description>
-    <failures>far missed</failures>
+    <failure>far</failure> <failure>missed</failure>
     <baseline>position-p</baseline> <control>nothing</control>
   </task>
   <task>
