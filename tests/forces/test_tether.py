@@ -31,7 +31,7 @@ SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
   </rosInterfaces>
   <u:forces> <u:tether> <name>tether</name>
     <from> <body>rov</body> </from>
-    <to> <position> <x>-4</x> <y>0</y> <z>-6</z> </position> </to>
+    {end}
     {tether} </u:tether> </u:forces>
 </UWSimScene>"""
 SHORT = "<length>4</length> <segments>8</segments>"
@@ -52,13 +52,14 @@ def load(tmp_path: Path) -> Load:
         *,
         ocean: str = "",
         objects: str = "",
+        end: str = "<to> <position> <x>-4</x> <y>0</y> <z>-6</z> </position> </to>",
         is_dynamic: bool = True,
         timestep: float = 0.01,
     ) -> Simulation:
         file = tmp_path / "scene.xml"
         moved = {"dynamics": DYNAMICS, "commands": COMMANDS}
         parts = moved if is_dynamic else dict.fromkeys(moved, "")
-        file.write_text(SCENE.format(tether=tether, ocean=ocean, objects=objects, **parts))
+        file.write_text(SCENE.format(tether=tether, ocean=ocean, objects=objects, end=end, **parts))
         return uwsim.load(file, is_blind=True, timestep=timestep)
 
     return open_scene
@@ -106,6 +107,32 @@ def test_a_kinematic_vehicle_carries_the_end_and_feels_nothing(load: Load) -> No
     simulation.advance(1.0)
     assert tether_of(simulation).end_tensions[0] > 1000.0  # stretched by a quarter
     assert simulation.pose("rov", "W").position.tolist() == [1.0, 0.0, -6.0]
+
+
+def test_a_vehicle_that_is_placed_elsewhere_has_its_tether_laid_anew(load: Load) -> None:
+    simulation = load("<length>8</length> <segments>16</segments>")
+    simulation.advance(0.5)
+    place = uwsim.Pose.from_rpy((-1.0, 5.0, -7.0), (np.pi, 0.0, 0.0))
+    simulation.set_pose("rov", place, "W")
+    simulation.advance(0.5)
+    assert max(tether_of(simulation).end_tensions) < 5.0
+    assert simulation.pose("rov", "W").position == pytest.approx(place.position, abs=0.05)
+
+
+def test_one_vehicle_tows_another(load: Load) -> None:
+    simulation = load(
+        SHORT,
+        objects="""<vehicle> <name>rov2</name> <file>bluerov2_heavy.urdf</file>
+          <position> <x>-4</x> <y>0</y> <z>-6</z> </position>
+          <orientation> <r>M_PI</r> <p>0</p> <y>0</y> </orientation>
+          <u:dynamics>bluerov2_heavy</u:dynamics> </vehicle>""",
+        end="<to> <body>rov2</body> </to>",
+    )
+    pull(simulation, 40.0, 6.0)
+    first, second = (simulation.pose(name, "W").position for name in ("rov", "rov2"))
+    assert first[0] > 0.2
+    assert second[0] > -3.8
+    assert first[0] - second[0] == pytest.approx(4.0, abs=0.02)
 
 
 def test_a_current_drags_the_tether_and_the_vehicle_with_it(load: Load) -> None:

@@ -23,6 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.geometry import ZERO, Array, Triple
+from ..base.numerics.linear import length
 from ..base.record import Record
 from ..schema import MAX_DISTANCE, Spec, element
 from ..world import GRAVITY, Attachment, ForceWorld
@@ -43,6 +44,8 @@ MAX_FORCE = 1e9
 """The greatest stiffness and load [N]."""
 MAX_COEFFICIENT = 100.0
 """The greatest coefficient of drag, added mass and friction [1]."""
+MAX_JUMP = 0.5
+"""The distance that an end moves in a step beyond which its body has been placed elsewhere [m]."""
 YELLOW = (0.95, 0.72, 0.05)
 """The colour of a tether, red, green and blue [0..1]."""
 
@@ -224,8 +227,8 @@ class Tether(Force):
     def length(self) -> float:
         """The unstretched length that is paid out [m]."""
         total = 0.0
-        for length in self.state.lengths[: self.state.n_segments].tolist():
-            total += length
+        for segment_length in self.state.lengths[: self.state.n_segments].tolist():
+            total += segment_length
         return total
 
     @property
@@ -317,17 +320,23 @@ class Tether(Force):
             state.tensions[segment] = 0.0
 
     def _find_ends(self) -> Ends:
-        """Set the ends to the positions of their bodies; return the masses and velocities."""
-        state = self.state
+        """Set the ends to the positions of their bodies; return the masses and velocities.
+
+        A body that has been placed elsewhere since the last step has its tether laid anew.
+        """
+        state, has_jumped = self.state, False
         ends = Ends(np.zeros((2, 3, 3)), np.zeros((2, 3)))
         for side, (end, fixed) in enumerate(zip(self._ends, self._fixed_positions, strict=True)):
             mass = None if end is None else end.mass()
             ends.masses[side] = HELD_MASS * np.eye(3) if mass is None else mass
             if end is not None:
                 ends.velocities[side] = end.motion().velocity
-            state.positions[side * state.n_segments] = (
-                fixed if end is None else end.world_from_body.position
-            )
+            position = fixed if end is None else end.world_from_body.position
+            node = state.positions[side * state.n_segments]
+            has_jumped = has_jumped or length(position - node) > MAX_JUMP
+            node[:] = position
+        if has_jumped:
+            self._lay(state)
         return ends
 
     def _place_segments(self) -> None:
@@ -335,25 +344,14 @@ class Tether(Force):
         self._segments.place(state.positions[: state.n_segments + 1], state.broken_segment)
 
     def _initial_state(self) -> TetherState:
-        """Return the state at rest: straight or in an arc, above the ground."""
+        """Return the state at rest, between the present positions of the ends."""
         spec, n = self._spec, self._spec.n_segments
         start, end = (
             fixed if body is None else body.world_from_body.position
             for body, fixed in zip(self._ends, self._fixed_positions, strict=True)
         )
-        shares = np.arange(spec.segments + 1) / spec.segments
-        positions = np.tile(end, (n + 1, 1))
-        positions[: spec.segments + 1] = arc_between(start, end, spec.length, shares)
-        self._rays.prepare()
-        lift_nodes(
-            self._rays.functions,
-            self._are_solid,
-            max(float(start[2]), float(end[2])),
-            0.5 * spec.diameter,
-            positions[: spec.segments + 1],
-        )
-        return TetherState(
-            positions=positions,
+        state = TetherState(
+            positions=np.tile(end, (n + 1, 1)),
             velocities=np.zeros((n + 1, 3)),
             lengths=np.full(n, spec.unit_length),
             tensions=np.zeros(n),
@@ -361,12 +359,27 @@ class Tether(Force):
             n_segments=spec.segments,
             speed=0.0 if spec.winch is None else spec.winch.speed,
         )
+        state.positions[0] = start
+        self._lay(state)
+        return state
+
+    def _lay(self, state: TetherState) -> None:
+        """Lay the tether at rest between its ends: straight or in an arc, above the ground."""
+        n = state.n_segments
+        positions = state.positions[: n + 1]
+        start, end = positions[0].copy(), positions[n].copy()
+        places = np.concatenate([[0.0], np.cumsum(state.lengths[:n])])
+        positions[:] = arc_between(start, end, float(places[-1]), places / places[-1])
+        state.velocities[:], state.planes[:] = 0.0, 0.0
+        self._rays.prepare()
+        top, radius = max(float(start[2]), float(end[2])), 0.5 * self._spec.diameter
+        lift_nodes(self._rays.functions, self._are_solid, top, radius, positions)
 
     def _describe_line(self) -> Line:
         spec = self._spec
         area = 0.25 * math.pi * spec.diameter**2
-        lowest_position = self.state.positions[np.argmin(self.state.positions[:, 2])]
-        water = float(self._world.water_density(lowest_position[None])[0])
+        lowest_height = min(float(self.state.positions[:, 2].min()), self._world.surface_height)
+        water = float(self._world.water_density(np.array([[0.0, 0.0, lowest_height]]))[0])
         mass = (water if spec.density is None else spec.density) * area
         if spec.weight_in_water is not None:
             mass += spec.weight_in_water / GRAVITY
