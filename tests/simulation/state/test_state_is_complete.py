@@ -46,6 +46,7 @@ CACHES = {
     "EngineMemory._addresses": "0 for none or elsewhere, as the arena",
     "EngineMemory._struct": "has counters of the engine and paddings; what counts is in `_counts`",
     "Ground._double_areas": "is a form of the model's",
+    "Ground._grids": "is a form of the model's",
     "Ground._high": "is a form of the model's",
     "Ground._low": "is a form of the model's",
     "Ground._triangles": "is a form of the model's",
