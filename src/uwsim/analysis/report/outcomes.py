@@ -20,7 +20,7 @@ MEANINGS = {
     "simulation error": "the motion of a body is impossible, or the engine stopped: not valid",
     "not found": "the object was never found",
     "lost target": "the object was found, and lost before it was touched",
-    "missed": "the task was not done (an object was touched, but never lifted)",
+    "missed": "the task was not done; in a grasp: the object was touched, but never lifted",
     "dropped": "the object was lifted and fell",
 }
 """The meaning of each status of a row (``docs/levels.md``)."""
