@@ -122,8 +122,8 @@ def _level_errors(task: TaskSpec, benchmark: BenchmarkSpec) -> Iterator[str]:
         elif name not in sweep:
             yield f"<level>: {name!r:.60} is not swept by {task.benchmark}.{choices(name, sweep)}"
         elif all(abs(value - number) >= 1e-9 for value in sweep[name]):
-            nearest = min(sweep[name], key=lambda value: abs(value - number))
-            yield f"<level> {text!r:.60} is no level; the nearest is {name}={nearest:.12g}"
+            nearest_value = min(sweep[name], key=lambda value: abs(value - number))
+            yield f"<level> {text!r:.60} is no level; the nearest is {name}={nearest_value:.12g}"
 
 
 def _failure_errors(task: TaskSpec, benchmark: BenchmarkSpec) -> Iterator[str]:
