@@ -38,7 +38,7 @@ from .coordinates import parse_system
 from .grid_cache import cached_grid
 from .height_grid import HeightGrid, Heights
 from .resampling import resample
-from .sediment import SedimentSpec, find_classes
+from .sediment import SedimentMapSpec, find_classes
 
 MAX_HEIGHT = 12_000.0
 """The greatest height or depth [m]."""
@@ -63,7 +63,7 @@ class BathymetrySpec(Spec):
     coordinates: str = element(namespaced=True, default="")
     """The coordinate system of a file that does not state it, such as ``EPSG:32631``; without both,
     coordinates are metres east and north of the scene's origin."""
-    sediment: SedimentSpec | None = element(namespaced=True, default=None)
+    sediment: SedimentMapSpec | None = element(namespaced=True, default=None)
     """The map of materials; without it the whole floor has the `<u:acousticMaterial>`, or sand."""
 
     def errors(self) -> Iterator[str]:

@@ -54,7 +54,7 @@ silt. Other materials have the friction of the engine."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class SedimentSpec(Spec):
+class SedimentMapSpec(Spec):
     """A ``<u:sediment>``: the map of materials of a chart."""
 
     file: str = element(namespaced=True)

@@ -12,6 +12,7 @@ from tests.support.fakes import FakeActuators, FakeBody, FakeWorld
 from tests.support.short_benchmark import run
 from uwsim.benchmark.measures import ControlSpec, EnergySpec, MeasureSpec
 from uwsim.benchmark.measures.energy import BatterySpec
+from uwsim.benchmark.measures.outcome import OutcomeSpec
 from uwsim.benchmark.reader import check_benchmark, read_benchmark
 from uwsim.checks import check_file
 from uwsim.schema import NAMESPACE, fields_of
@@ -149,7 +150,7 @@ def test_the_bundled_benchmark_that_uses_them_is_right_and_its_function_does_not
 ):
     assert said(CURRENTS) == []
     spec = read_benchmark(CURRENTS)
-    assert [type(m) for m in spec.measures[-2:]] == [EnergySpec, ControlSpec]
+    assert [type(m) for m in spec.measures[-3:]] == [EnergySpec, ControlSpec, OutcomeSpec]
     assert spec.function.text == "offset"
 
 
