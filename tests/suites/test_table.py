@@ -9,9 +9,10 @@ import pytest
 
 from uwsim.cli import main
 from uwsim.suites.entry import Seeds
-from uwsim.suites.site.collect import collect_submissions
+from uwsim.suites.seeds import public_seeds
+from uwsim.suites.site.collect import Conditions, collect_submissions
 from uwsim.suites.submission import load_submission
-from uwsim.suites.suite import Suite
+from uwsim.suites.suite import Suite, read_suite
 from uwsim.suites.table import reference_entries
 
 
@@ -46,4 +47,6 @@ def test_the_command_writes_entries_for_a_page(
     }
     assert {submission.seeds.count for submission in submissions.values()} == {1}
     assert submissions["baseline-2"].tasks["far-v1"].algorithm == "position-pi"
-    assert len(collect_submissions(tmp_path).candidates) == 4
+    suite = read_suite(small_suite)
+    conditions = Conditions(suite=suite, seeds=public_seeds(suite, "validation", 1), is_short=True)
+    assert len(collect_submissions(tmp_path, conditions).candidates) == 4

@@ -109,12 +109,16 @@ class LockStep:
             next_time = wall_time.monotonic() + 1e-6 * period
             clock += period
             self._send(messages(clock))
-            while not has_answer and (rest := next_time - wall_time.monotonic()) > 0.0:
+            rest = next_time - wall_time.monotonic()
+            while True:  # receives once at least, however long the messages took
                 self._check_skipped(0)
-                for answer in self._receive(rest):
+                for answer in self._receive(max(rest, 0.0)):
                     self._check_lock_step(answer)
                     has_answer = True
                     is_answered = answer.time_usec >= clock
+                rest = next_time - wall_time.monotonic()
+                if has_answer or rest <= 0.0:
+                    break
         if not is_answered:
             self._wait_for(clock)
         self.state.clock_offset = clock + period - round(1e6 * time)
