@@ -129,7 +129,7 @@ def test_the_figures_have_the_published_levels_and_are_else_the_benchmark_itself
     full, two = (read_benchmark(DATA / f"currents{end}.xml") for end in ("", "-figures"))
     assert [level.values[0][1] for level in levels(two.scene_updater)] == [0.0, 0.2]
     assert len(levels(full.scene_updater)) == 20
-    assert two.measures == full.measures
+    assert two.measures == full.measures[:-1]  # all but the outcome of the task
     assert two.scene == full.scene
 
 
@@ -152,7 +152,7 @@ def play(algorithm: str, out: Path, *settings: str) -> StationError:
     )
     inputs, renderer = hash_inputs(plan)
     [result] = run_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
-    assert result.values("status") == ("ok",)
+    assert result.values("status")[0] in ("ok", "missed")  # not lost
     names = ("centroid", "objectCentered", "offset")
     logs = {name: load_log(out / f"measure-{name}.csv") for name in names}
     focal = 120.0 / math.tan(math.radians(25.0))

@@ -1,4 +1,4 @@
-"""Readers of scene graphs in text: VRML 97, X3D, and OpenSceneGraph's .osg and .osgt files.
+"""Readers of scene graphs in text: VRML 97 and X3D.
 
-Each reader makes a tree of `node.Node`; `vrml_shapes` and `osg_shapes` make triangles of it.
+Each reader makes a tree of `node.Node`; `vrml_shapes` makes triangles of it.
 """
