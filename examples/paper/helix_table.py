@@ -6,15 +6,15 @@ python examples/paper/helix_table.py --experiments --seeds 3
 
 from __future__ import annotations
 
-import argparse
 import math
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from table_program import make_parser, mean_text
+
 import uwsim
 from uwsim.results.log import load_log
-from uwsim.statistics import mean_interval
 
 POLICY = f"{Path(__file__).parents[1] / 'learning' / 'policy.py'}:TrainedHelix"
 """The trained policy of the learning environment ``uwsim/Helix-v0``."""
@@ -82,35 +82,27 @@ def measure(
     return [value for value in result.numbers("offset") if value is not None], late_errors
 
 
-def _format(errors: Sequence[float]) -> str:
-    interval = mean_interval(errors)
-    if interval.low is None:
-        return f"{interval.mean:.3f}"
-    return f"{interval.mean:.3f} [{interval.low:.3f}, {interval.high:.3f}]"
-
-
 def main() -> None:
     """Run the algorithms, and print a row of a table for each."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seeds", type=int, default=10, help="the number of seeds")
-    parser.add_argument("--experiments", action="store_true", help="run the experiments")
-    options = parser.parse_args()
+    options = make_parser(__doc__).parse_args()
     print("| | whole trial [m] | after 10 s [m] |", "|---|---|---|", sep="\n")
     if not options.experiments:
         for title, error in LITERATURE.items():
             print(f"| theirs, {title} | {error:g} | |")
         for title, algorithm in ROWS.items():
-            cells = map(_format, measure(algorithm, options.seeds))
-            print(f"| {title} | {' | '.join(cells)} |", flush=True)
+            print_row(title, measure(algorithm, options.seeds))
         return
     for name, algorithm in (("position-lqr", "position-lqr"), ("PPO", POLICY)):
         for title, settings in EXPERIMENTS:
-            cells = map(_format, measure(algorithm, options.seeds, settings=settings))
-            print(f"| {name}, {title} | {' | '.join(cells)} |", flush=True)
-        cells = map(_format, measure(algorithm, options.seeds, period=10.0))
-        print(f"| {name}, a turn in 10 s | {' | '.join(cells)} |", flush=True)
-        cells = map(_format, measure(algorithm, options.seeds, current=0.1))
-        print(f"| {name}, a current of 0.1 m/s | {' | '.join(cells)} |", flush=True)
+            print_row(f"{name}, {title}", measure(algorithm, options.seeds, settings=settings))
+        print_row(f"{name}, a turn in 10 s", measure(algorithm, options.seeds, period=10.0))
+        print_row(f"{name}, a current of 0.1 m/s", measure(algorithm, options.seeds, current=0.1))
+
+
+def print_row(title: str, columns: Sequence[Sequence[float]]) -> None:
+    """Print a row: a title, and the mean of each column [m]."""
+    cells = [mean_text(errors, 3) for errors in columns]
+    print(f"| {title} | {' | '.join(cells)} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -6,15 +6,15 @@ python examples/paper/oneocean_table.py --experiments --seeds 5
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from oneocean_heuristic import Heuristic, HeuristicForce
 from oneocean_model import Task, simulate
+from table_program import make_parser, mean_text
 
 import uwsim
-from uwsim.statistics import mean_interval, rate
+from uwsim.statistics import rate
 
 FOLDER = Path(__file__).parent
 CURRENTS = (0.1, 0.2, 0.3)
@@ -116,9 +116,8 @@ def print_row(title: str, name: str, values: Results) -> None:
 
 def _format(values: Sequence[float], published_value: float, is_error: bool) -> str:
     if is_error:
-        interval = mean_interval(values)
-        limits = "" if interval.low is None else f" [{interval.low:.2f}, {interval.high:.2f}]"
-        return f"{interval.mean:.2f}{limits} m; {interval.mean / published_value:.2f}"
+        ratio = sum(values) / len(values) / published_value
+        return f"{mean_text(values, 2)} m; {ratio:.2f}"
     share = rate(round(sum(values)), len(values))
     return (
         f"{100.0 * share.value:.0f} % [{100.0 * share.low:.0f}, {100.0 * share.high:.0f}]; "
@@ -128,9 +127,7 @@ def _format(values: Sequence[float], published_value: float, is_error: bool) -> 
 
 def main() -> None:
     """Run the tasks, and print a row of a table for each task and vehicle."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seeds", type=int, default=10, help="the number of seeds")
-    parser.add_argument("--experiments", action="store_true", help="run the experiments")
+    parser = make_parser(__doc__)
     parser.add_argument("--currents", type=float, nargs="+", default=CURRENTS, help="[m/s]")
     options = parser.parse_args()
     currents = options.currents

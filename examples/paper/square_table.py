@@ -6,12 +6,12 @@ python examples/paper/square_table.py --experiments --seeds 3
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from table_program import make_parser, mean_text
+
 import uwsim
-from uwsim.statistics import mean_interval
 
 CONDITIONS = {
     "still water": (0.0, 0.0),
@@ -83,22 +83,12 @@ def measure(algorithm: str, settings: Mapping[str, float | str], n_seeds: int) -
     for height, current, offset in zip(*columns, strict=True):
         if offset is not None:
             errors.setdefault((height, current), []).append(100.0 * offset)
-    return [_format(errors[condition]) for condition in CONDITIONS.values()]
-
-
-def _format(errors: Sequence[float]) -> str:
-    interval = mean_interval(errors)
-    if interval.low is None:
-        return f"{interval.mean:.2f}"
-    return f"{interval.mean:.2f} [{interval.low:.2f}, {interval.high:.2f}]"
+    return [mean_text(errors[condition], 2) for condition in CONDITIONS.values()]
 
 
 def main() -> None:
     """Run the controllers, and print a row of a table for each."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seeds", type=int, default=10, help="the number of seeds")
-    parser.add_argument("--experiments", action="store_true", help="run the experiments")
-    options = parser.parse_args()
+    options = make_parser(__doc__).parse_args()
     print(f"| | {' | '.join(CONDITIONS)} |", f"|---{'|---' * len(CONDITIONS)}|", sep="\n")
     if options.experiments:
         for title, algorithm, settings in EXPERIMENTS:

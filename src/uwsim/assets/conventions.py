@@ -24,9 +24,7 @@ def robot_scale(model: Model, scale: Scale) -> Scale:
         model: the mesh, in its own unit.
         scale: the scale of the mesh in the robot file [1].
     """
-    if model.asset is None or model.asset.unit == 1.0:
-        return scale
-    x, y, z = (model.asset.unit * factor for factor in scale)
+    x, y, z = (model.unit * factor for factor in scale)
     return x, y, z
 
 

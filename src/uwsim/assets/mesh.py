@@ -145,6 +145,11 @@ class Model:
         object.__setattr__(self, "box", Box(tuple(low), tuple(high)))
 
     @property
+    def unit(self) -> float:
+        """The length of a unit of the vertices [m], 1 if the file states none."""
+        return 1.0 if self.asset is None else self.asset.unit
+
+    @property
     def sha256(self) -> str:
         """The hash of the file's bytes, or of the arrays of a generated model; "" without one."""
         return self.digest.sha256 if isinstance(self.digest, ArrayDigest) else self.digest

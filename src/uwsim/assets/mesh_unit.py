@@ -36,7 +36,7 @@ def mesh_unit_remark(
             f"the mesh {name!r} states the unit {invalid_unit}; expected a length in metres: it is "
             "read in metres"
         )
-    unit = 1.0 if model.asset is None else model.asset.unit
+    unit = model.unit
     if unit != 1.0 and all(abs(abs(factor) / unit - 1.0) < 0.02 for factor in scale):
         return (
             f"the mesh {name!r} states the unit {unit:g} m, which is applied; its scale applies it "

@@ -80,10 +80,26 @@ def xyz_from_rotation(rotation: Array) -> tuple[float, float, float]:
     return -x, -y, -z
 
 
+def cross_matrix(vector: Array) -> Array:
+    """Return the matrix (3, 3) whose product with u is the cross product of ``vector`` and u."""
+    x, y, z = vector
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def twist_shift(offset: Array) -> Array:
+    """Return the matrix (6, 6) from the twist of a point to that of another point of the body.
+
+    Twists have the velocity first; ``offset`` is from the first point to the other, (3,) [m].
+    """
+    shift = np.eye(6)
+    shift[:3, 3:] = -cross_matrix(offset)
+    return shift
+
+
 def rotation_about(axis: Array, angle: float) -> Array:
     """Return the rotation by ``angle`` [rad] about an axis, (3,) of any length, as (3, 3)."""
     unit = np.asarray(axis, dtype=np.float64) / length(axis)
-    k = np.array([[0.0, -unit[2], unit[1]], [unit[2], 0.0, -unit[0]], [-unit[1], unit[0], 0.0]])
+    k = cross_matrix(unit)
     rotation: Array = np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * product(k, k)
     return rotation
 

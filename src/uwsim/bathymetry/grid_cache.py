@@ -16,7 +16,7 @@ import numpy as np
 
 from ..base.files import disk_cache
 from ..base.files.code_digest import code_digest
-from ..base.files.input_files import InputFile, record, record_inputs
+from ..base.files.input_files import InputFile, file_stamps, record, record_inputs
 from .height_grid import HeightGrid
 
 CACHE_SIZE = 4
@@ -24,11 +24,9 @@ CACHE_SIZE = 4
 PACKAGES = ("numpy", "numba", "scipy")
 _ARRAYS = ("west", "south", "spacing", "heights", "classes")
 
-_Stamp = tuple[tuple[Path, int, int], ...]
-
 
 class _Entry(NamedTuple):
-    stamps: _Stamp
+    stamps: tuple[tuple[int, int], ...]
     files: tuple[InputFile, ...]
     grid: HeightGrid
 
@@ -47,7 +45,7 @@ def cached_grid(
         build: makes the grid of the bytes of the main file.
     """
     entry = _cache.get(key)
-    if entry is not None and entry.stamps == _stamps(entry.files):
+    if entry is not None and entry.stamps == file_stamps(entry.files):
         record(entry.files)
         return entry.grid
     with record_inputs() as files:
@@ -63,20 +61,8 @@ def cached_grid(
         disk_cache.write(file, _to_bytes(grid))
     while len(_cache) >= CACHE_SIZE:
         del _cache[next(iter(_cache))]
-    _cache[key] = _Entry(_stamps(files), tuple(files), grid)
+    _cache[key] = _Entry(file_stamps(files), tuple(files), grid)
     return grid
-
-
-def _stamps(files: list[InputFile] | tuple[InputFile, ...]) -> _Stamp:
-    """Return path, modification time [ns] and size [byte] of each file."""
-    stamps = []
-    for file in files:
-        try:
-            status = file.path.stat()
-        except OSError:
-            continue
-        stamps.append((file.path, status.st_mtime_ns, status.st_size))
-    return tuple(stamps)
 
 
 def _to_bytes(grid: HeightGrid) -> bytes:

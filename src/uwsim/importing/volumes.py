@@ -14,8 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.geometry import Array, Pose
+from ..world import Box
 from .mesh_files import CopiedMesh
 from .sdf.spec import Shape
+
+UNIT_BOX = Box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+"""The box of a shape of unit size."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,10 +78,11 @@ def shape_volume(shape: Shape, mesh: CopiedMesh | None = None) -> tuple[float, A
 
 def mesh_volume(mesh: CopiedMesh, scale: tuple[float, float, float]) -> tuple[float, Array]:
     """Return the volume [m3] and the centre (3,) [m] of a closed mesh; 0 for an open sheet."""
-    unit = 1.0 if mesh.model.asset is None else mesh.model.asset.unit
     volume, moment = 0.0, np.zeros(3)
     for part in mesh.model.meshes:
-        corners = part.vertices[part.triangles].astype(np.float64) * np.array(scale) * unit
+        corners = (
+            part.vertices[part.triangles].astype(np.float64) * np.array(scale) * mesh.model.unit
+        )
         a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
         sixths = np.sum(a * np.cross(b, c), axis=1) / 6.0
         volume += float(sixths.sum())
@@ -89,12 +94,8 @@ def mesh_volume(mesh: CopiedMesh, scale: tuple[float, float, float]) -> tuple[fl
 
 def _corners(shape: Shape, mesh: CopiedMesh | None) -> Array:
     """Return the corners of the box around a shape in its frame, (8, 3) [m]."""
+    box, size = UNIT_BOX, np.array(shape.size)
     if shape.kind == "mesh" and mesh is not None:
-        unit = 1.0 if mesh.model.asset is None else mesh.model.asset.unit
-        box = mesh.model.box
-        ends = np.array([box.lower, box.upper]) * np.array(shape.scale) * unit
-    else:
-        ends = np.array([[-0.5], [0.5]]) * np.array(shape.size)
-    return np.array(
-        [[ends[i, 0], ends[j, 1], ends[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
-    )
+        box, size = mesh.model.box, np.array(shape.scale) * mesh.model.unit
+    corners: Array = box.corners() * size
+    return corners

@@ -24,7 +24,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from ..base.geometry import Array
+from ..base.geometry import Array, cross_matrix, twist_shift
 from ..base.numerics.linear import dot, product, rotate, rotate_back
 from ..base.record import Record
 from .hydrodynamics import columns as c
@@ -202,7 +202,7 @@ def _rigid_inertia(model: mujoco.MjModel, body: int) -> Array:
     mass, rotation = float(model.body_mass[body]), np.empty(9)
     mujoco.mju_quat2Mat(rotation, model.body_iquat[body])
     axes = rotation.reshape(3, 3)
-    s = _skew(model.body_ipos[body])
+    s = cross_matrix(model.body_ipos[body])
     inertia = np.zeros((6, 6))
     inertia[:3, :3] = mass * np.eye(3)
     inertia[:3, 3:], inertia[3:, :3] = -mass * s, mass * s
@@ -213,10 +213,5 @@ def _rigid_inertia(model: mujoco.MjModel, body: int) -> Array:
 
 def _shift_added_mass(added_mass: Array, row: Array) -> Array:
     """Return the added mass about the body's origin from that about its reference point, (6, 6)."""
-    shift = np.eye(6)  # from the twist of the origin to the twist of the reference point
-    shift[:3, 3:] = -_skew(row[c.REFERENCE : c.REFERENCE + 3])
+    shift = twist_shift(row[c.REFERENCE : c.REFERENCE + 3])
     return product(shift.T, product(added_mass, shift))
-
-
-def _skew(a: Array) -> Array:
-    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])

@@ -97,4 +97,9 @@ def _text(value: Any, *, attribute: bool = False) -> str:
         return " ".join(map(_text, value))
     if isinstance(value, bool):
         return str(value).lower() if attribute else str(int(value))
-    return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
+    return number_text(value) if isinstance(value, float) else str(value)
+
+
+def number_text(value: float) -> str:
+    """Return a number as the shortest text that reads back to it."""
+    return repr(float(value)).removesuffix(".0")

@@ -53,8 +53,7 @@ def _walk(folder: Path) -> Iterator[Path]:
                     raise ResultError(f"{VERDICT_FILE}: is a folder; expected a file.")
                 yield from _walk(Path(item.path))
                 continue
-            if not stat.S_ISREG(status.st_mode):
-                raise ResultError(f"{item.path}: is no plain file (a link, a pipe or a device).")
+            _check_plain_file(Path(item.path), status)
             if status.st_size > MAX_FILE_BYTES:
                 raise ResultError(f"{item.path}: is larger than {MAX_FILE_BYTES >> 20} MiB.")
             yield Path(item.path)
@@ -84,14 +83,19 @@ def read_plain_file(path: Path, at_most: int) -> bytes:
         ResultError: the file does not exist, is no plain file, or is larger.
     """
     try:
-        mode, size = (status := path.lstat()).st_mode, status.st_size
+        status = path.lstat()
     except OSError:
         raise ResultError(
             f"{path}: there is no such file; expected the --out of uwsim suite run."
         ) from None
-    if not stat.S_ISREG(mode):
-        raise ResultError(f"{path}: is no plain file (a link, a pipe or a device).")
-    if size > at_most:
+    _check_plain_file(path, status)
+    if status.st_size > at_most:
         raise ResultError(f"{path}: longer than {at_most} bytes.")
     with path.open("rb") as stream:
         return stream.read(at_most)
+
+
+def _check_plain_file(path: Path, status: os.stat_result) -> None:
+    """Raise ResultError for a link, a pipe or a device, by the status of the path itself."""
+    if not stat.S_ISREG(status.st_mode):
+        raise ResultError(f"{path}: is no plain file (a link, a pipe or a device).")

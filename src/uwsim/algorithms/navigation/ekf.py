@@ -29,7 +29,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...base.geometry import Array, rotation_from_quaternion
+from ...base.geometry import Array, cross_matrix, rotation_from_quaternion
 from ...base.numerics.linear import cross, product, rotate, rotate_back
 from .kernel import correct, propagate, rotate_by, rotation_between, squared_distance
 
@@ -149,8 +149,8 @@ class NavigationFilter:
         expected = expected + cross(self.angular_velocity, lever_arm)
         jacobian = np.zeros((3, STATE_SIZE))
         jacobian[:, VELOCITY] = self.rotation.T
-        jacobian[:, ATTITUDE] = product(self.rotation.T, _cross_matrix(self.velocity))
-        jacobian[:, GYRO_BIAS] = _cross_matrix(lever_arm)
+        jacobian[:, ATTITUDE] = product(self.rotation.T, cross_matrix(self.velocity))
+        jacobian[:, GYRO_BIAS] = cross_matrix(lever_arm)
         self._correct("dvl", velocity - expected, jacobian, self.spec.dvl)
 
     def update_depth(self, depth: float) -> None:
@@ -158,7 +158,7 @@ class NavigationFilter:
         lever_arm = rotate(self.rotation, np.array(self.spec.depth_place))
         jacobian = np.zeros((1, STATE_SIZE))
         jacobian[0, 2] = 1.0
-        jacobian[0, ATTITUDE] = -_cross_matrix(lever_arm)[2]
+        jacobian[0, ATTITUDE] = -cross_matrix(lever_arm)[2]
         error = np.array([depth - float(self.position[2] + lever_arm[2])])
         self._correct("depth", error, jacobian, self.spec.depth)
 
@@ -204,9 +204,3 @@ class NavigationFilter:
         self.gyro_bias = self.gyro_bias + error[GYRO_BIAS]
         self.accelerometer_bias = self.accelerometer_bias + error[ACCELEROMETER_BIAS]
         self.rotation = rotate_by(self.rotation, error[ATTITUDE], in_base=False)
-
-
-def _cross_matrix(vector: Array) -> Array:
-    """Return the matrix (3, 3) whose product with u is the cross product of ``vector`` and u."""
-    x, y, z = vector.tolist()
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

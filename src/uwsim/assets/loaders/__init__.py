@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...base.files.input_files import read_bytes, record, record_inputs
+from ...base.files.input_files import file_stamps, read_bytes, record, record_inputs
 from ...errors import AssetError
 from ..mesh import Model
 from .by_trimesh import MESH_FORMATS, read_meshes
@@ -15,9 +15,8 @@ __all__ = ["MESH_FORMATS", "OSGCONV_FORMATS", "can_read", "format_error", "read_
 CACHE_SIZE = 256
 """The number of models in memory."""
 
-_Stamp = tuple[int, int]
 _Key = tuple[Path, str, tuple[Path, ...]]
-_cache: dict[_Key, tuple[tuple[_Stamp, ...], Model]] = {}
+_cache: dict[_Key, tuple[tuple[tuple[int, int], ...], Model]] = {}
 
 
 def can_read(path: Path) -> bool:
@@ -51,7 +50,7 @@ def read_model(path: Path, *, name: str, allowed_folders: tuple[Path, ...] = ())
     allowed_folders = allowed_folders or (path.absolute().parent,)
     key = (path, name, allowed_folders)
     entry = _cache.get(key)
-    if entry is not None and entry[0] == _stamps(entry[1]):
+    if entry is not None and entry[0] == file_stamps(entry[1].files):
         record(entry[1].files)
         return entry[1]
     try:
@@ -60,16 +59,8 @@ def read_model(path: Path, *, name: str, allowed_folders: tuple[Path, ...] = ())
         raise AssetError(f"{path}: cannot be read ({error.strerror}).") from error
     while len(_cache) >= CACHE_SIZE:
         del _cache[next(iter(_cache))]
-    _cache[key] = _stamps(model), model
+    _cache[key] = file_stamps(model.files), model
     return model
-
-
-def _stamps(model: Model) -> tuple[_Stamp, ...]:
-    """Return the modification time [ns] and size [byte] of each file of a model."""
-    statuses = [file.path.stat() if file.path.exists() else None for file in model.files]
-    return tuple(
-        (0, 0) if status is None else (status.st_mtime_ns, status.st_size) for status in statuses
-    )
 
 
 def _read(path: Path, name: str, allowed_folders: tuple[Path, ...]) -> Model:

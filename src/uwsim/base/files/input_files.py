@@ -107,6 +107,17 @@ def read_document(path: Path, *, at_most: int = MAX_BYTES) -> bytes:
     raise FileError([Diagnostic(file=str(path), line=None, message=message)])
 
 
+def file_stamps(files: Iterable[InputFile]) -> tuple[tuple[int, int], ...]:
+    """Return the modification time [ns] and size [byte] of each file; (0, 0) for one that is gone.
+
+    A cache in memory compares them to see whether a file has changed.
+    """
+    statuses = [file.path.stat() if file.path.exists() else None for file in files]
+    return tuple(
+        (0, 0) if status is None else (status.st_mtime_ns, status.st_size) for status in statuses
+    )
+
+
 def is_inside(path: Path, folders: Iterable[Path]) -> bool:
     """Return whether a file is in or below one of the folders; links are followed."""
     resolved_path = path.resolve()

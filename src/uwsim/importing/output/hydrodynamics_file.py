@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...base.geometry import Array, Pose
+from ...base.geometry import Array, Pose, twist_shift
 from ...scene.hydrodynamics.spec import (
     BodyHydrodynamics,
     FinSpec,
@@ -61,8 +61,8 @@ def make_hydrodynamics(
         source=f"Imported from {context.model.model.file.name}, model {context.model.model.name}.",
         density=density,
         bodies=tuple(bodies),
-        thrusters=tuple(_valid_thrusters(context)),
-        fins=tuple(_valid_fins(context)),
+        thrusters=tuple(part for part in read_thrusters(context) if _is_valid(part, context)),
+        fins=tuple(part for part in read_fins(context) if _is_valid(part, context)),
     )
     currents = [entry.current for entry in coefficients.values() if any(entry.current)]
     return ImportedHydrodynamics(vehicle=vehicle, current=next(iter(currents), (0.0, 0.0, 0.0)))
@@ -197,31 +197,22 @@ def move_added_mass(matrix: Array, frame_from_inertial: Pose, point: Array) -> A
 
     turn = np.zeros((6, 6))
     turn[:3, :3] = turn[3:, 3:] = frame_from_inertial.rotation
-    x, y, z = frame_from_inertial.position - point
-    shift = np.eye(6)
-    shift[:3, 3:] = -np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    shift = twist_shift(frame_from_inertial.position - point)
     rotated_mass = product(product(turn, matrix), turn.T)
     return product(product(shift.T, rotated_mass), shift)
 
 
-def _valid_thrusters(context: PluginContext) -> Iterator[ThrusterSpec]:
-    for thruster in read_thrusters(context):
-        errors = set_errors(VehicleHydrodynamics(name="imported", thrusters=(thruster,)))
-        if errors:
-            place = context.model.model.place
-            context.report.add("left out", f"thruster {thruster.name}", place, errors[0])
-        else:
-            yield thruster
-
-
-def _valid_fins(context: PluginContext) -> Iterator[FinSpec]:
-    for fin in read_fins(context):
-        errors = set_errors(VehicleHydrodynamics(name="imported", fins=(fin,)))
-        if errors:
-            place = context.model.model.place
-            context.report.add("left out", f"fin {fin.name}", place, errors[0])
-        else:
-            yield fin
+def _is_valid(part: ThrusterSpec | FinSpec, context: PluginContext) -> bool:
+    """Return whether a hydrodynamics file may have a part; report one that it may not."""
+    if isinstance(part, ThrusterSpec):
+        label, vehicle = "thruster", VehicleHydrodynamics(name="imported", thrusters=(part,))
+    else:
+        label, vehicle = "fin", VehicleHydrodynamics(name="imported", fins=(part,))
+    errors = set_errors(vehicle)
+    if errors:
+        place = context.model.model.place
+        context.report.add("left out", f"{label} {part.name}", place, errors[0])
+    return not errors
 
 
 def _numbers(matrix: Array, *, has_axes: bool = False) -> tuple[float, ...]:

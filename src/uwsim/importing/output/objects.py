@@ -114,7 +114,7 @@ class ObjectWriter:
         if min(x, y, z) < 0.0:
             self.report.add("changed", label, visual.place, "its scale is negative: not mirrored")
         asset = mesh.model.asset
-        unit = 1.0 if asset is None else asset.unit
+        unit = mesh.model.unit
         scale = (abs(x) * unit, abs(y) * unit, abs(z) * unit)
         if asset is None or asset.up_axis == "Z":
             return scale, ZERO
@@ -201,8 +201,7 @@ def _shape_type(link: FlatLink) -> ShapeType:
 
 def _mesh_parts(mesh: CopiedMesh, visual: Visual, pose: Pose) -> Iterator[Part]:
     """Yield the parts of a mesh in the frame of the link, with their mean colours."""
-    unit = 1.0 if mesh.model.asset is None else mesh.model.asset.unit
-    factor: Array = np.array(visual.shape.scale) * unit
+    factor: Array = np.array(visual.shape.scale) * mesh.model.unit
     for part in mesh.model.meshes:
         vertices = pose.transform(part.vertices.astype(np.float64) * factor)
         colour = (*part.colour, part.opacity) if visual.colour is None else visual.colour

@@ -9,6 +9,7 @@ import numpy as np
 from lxml import etree
 
 from ...base.geometry import Array, Pose, rpy_from_rotation
+from ...schema.writing import number_text
 from ..mesh_files import MeshFiles
 from ..plugins.thrusters import triple
 from ..robot import Robot, RobotJoint
@@ -40,9 +41,9 @@ def _write_inertial(node: etree._Element, robot: Robot, path: str) -> None:
     link = robot.links[path].link
     inertial = etree.SubElement(node, "inertial")
     _write_origin(inertial, robot.frame_from_part(path, link.link_from_inertial))
-    etree.SubElement(inertial, "mass", value=number(link.inertial.mass))
+    etree.SubElement(inertial, "mass", value=number_text(link.inertial.mass))
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-    values = dict(zip(names, map(number, link.inertial.inertia), strict=True))
+    values = dict(zip(names, map(number_text, link.inertial.inertia), strict=True))
     etree.SubElement(inertial, "inertia", values)
 
 
@@ -62,9 +63,11 @@ def _write_shape(
     elif shape.kind == "box":
         etree.SubElement(geometry, "box", size=numbers(shape.size))
     elif shape.kind == "cylinder":
-        etree.SubElement(geometry, "cylinder", radius=number(0.5 * width), length=number(height))
+        etree.SubElement(
+            geometry, "cylinder", radius=number_text(0.5 * width), length=number_text(height)
+        )
     elif shape.kind == "sphere":
-        etree.SubElement(geometry, "sphere", radius=number(0.5 * width))
+        etree.SubElement(geometry, "sphere", radius=number_text(0.5 * width))
     elif shape.kind == "plane" and tag == "collision":
         meshes.report.add("left out", label, visual.place, "a robot has no endless plane")
         return
@@ -90,15 +93,15 @@ def _write_joint(root: etree._Element, joint: RobotJoint, robot: Robot) -> None:
     limits: dict[str, str] = {}
     if joint.kind != "continuous":
         bound = math.pi if joint.kind == "revolute" else 1e3
-        limits["lower"] = number(max(axis.lower, -bound * 2.0))
-        limits["upper"] = number(min(axis.upper, bound * 2.0))
+        limits["lower"] = number_text(max(axis.lower, -bound * 2.0))
+        limits["upper"] = number_text(min(axis.upper, bound * 2.0))
     for name, value in (("effort", axis.effort), ("velocity", axis.velocity)):
         if 0.0 < value < 1e9:
-            limits[name] = number(value)
+            limits[name] = number_text(value)
     if limits:
         etree.SubElement(node, "limit", limits)
     if axis.damping or axis.friction:
-        values = {"damping": number(axis.damping), "friction": number(axis.friction)}
+        values = {"damping": number_text(axis.damping), "friction": number_text(axis.friction)}
         etree.SubElement(node, "dynamics", values)
 
 
@@ -109,11 +112,6 @@ def _write_origin(node: etree._Element, pose: Pose) -> None:
         etree.SubElement(node, "origin", xyz=numbers(position), rpy=numbers(rpy))
 
 
-def number(value: float) -> str:
-    """Return a number as the shortest text that reads back to it."""
-    return repr(float(value)).removesuffix(".0")
-
-
 def numbers(values: tuple[float, ...] | Array) -> str:
     """Return numbers, separated by blanks."""
-    return " ".join(number(value) for value in values)
+    return " ".join(number_text(value) for value in values)
